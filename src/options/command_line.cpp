@@ -46,6 +46,7 @@ void set_action(const std::string& command, CommandLine& line) {
   if (command == "routes") line.action = Action::kRoutes;
   if (command == "bench") line.action = Action::kBench;
   if (command == "convert") line.action = Action::kConvert;
+  if (command == "mix") line.action = Action::kMix;
 }
 
 /// Gives the options about scene files to the commands that read one.

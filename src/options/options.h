@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "film/film_output.h"
+#include "image/mix.h"
 #include "input/import_options.h"
 #include "scene/scene.h"
 #include "session/route_plan.h"
@@ -60,6 +61,14 @@ struct RoutesCommand {
   uint32_t passes = 8;  ///< passes of the pilot
 };
 
+/// Arguments of `nephroid mix`.
+struct MixCommand {
+  std::string picture;
+  Mix mix;
+  std::string output;
+  LayerPrecision layer_precision = LayerPrecision::kHalf;
+};
+
 /// Arguments of `nephroid merge`.
 struct MergeCommand {
   std::vector<std::string> inputs;
@@ -87,7 +96,7 @@ struct BenchCommand {
   bool quiet = false;
 };
 
-enum class Action { kRender, kMerge, kInfo, kCompare, kRoutes, kBench, kConvert, kPrint };
+enum class Action { kRender, kMerge, kInfo, kCompare, kRoutes, kBench, kConvert, kMix, kPrint };
 
 /// A parsed command line.
 struct CommandLine {
@@ -99,6 +108,7 @@ struct CommandLine {
   RoutesCommand routes;
   BenchCommand bench;
   ConvertCommand convert;
+  MixCommand mix;
   ImportOptions import;  ///< options about scene files, copied to the command after parsing
   std::string text;      ///< text of kPrint: help, version and the like
 };
