@@ -64,7 +64,7 @@ nephroid_layer(integrator integrator nephroid_photon nephroid_film
                      metropolis mixed presets)
 nephroid_layer(image image nephroid_film)
 nephroid_layer(session session nephroid_integrator ROOMS settings report checkpoint)
-nephroid_layer(options options nephroid_session)
+nephroid_layer(options options nephroid_session nephroid_image)
 nephroid_layer(bench bench nephroid_options nephroid_image nlohmann_json::nlohmann_json)
 nephroid_layer(report_page report_page nephroid_bench)
 nephroid_layer(view view nephroid_session nephroid_image nlohmann_json::nlohmann_json

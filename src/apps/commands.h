@@ -10,6 +10,7 @@ int run_render(const RenderCommand& command);
 int run_view(const ViewCommand& command, const RenderCommand& render);
 int run_info(const InfoCommand& command);
 int run_merge(const MergeCommand& command);
+int run_mix(const MixCommand& command);
 int run_compare(const CompareCommand& command);
 int run_routes(const RoutesCommand& command);
 int run_convert(const ConvertCommand& command);

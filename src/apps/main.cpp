@@ -38,6 +38,8 @@ int run(const std::vector<std::string>& arguments) {
       return run_info(line.info);
     case Action::kMerge:
       return run_merge(line.merge);
+    case Action::kMix:
+      return run_mix(line.mix);
     case Action::kCompare:
       return run_compare(line.compare);
     case Action::kRoutes:

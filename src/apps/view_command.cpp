@@ -109,7 +109,7 @@ int run_view(const ViewCommand& command, const RenderCommand& render) {
   RenderRequest request = request_of(render);
   const std::string output = render.output;
   if (!output.empty()) check_picture_can_be_written(output);
-  LiveRender live(std::move(request), render.layers);
+  LiveRender live(std::move(request));
   const int status = serve(live, command, signals);
   if (!output.empty()) leave_checkpoint(live, output);
   return status;

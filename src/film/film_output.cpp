@@ -84,6 +84,23 @@ bool may_be_in_half(const std::string& channel) {
   return std::ranges::find(kLayersInFloat, layer) == kLayersInFloat.end();
 }
 
+/// [channel]: true if it may be written as 16-bit floats.
+std::vector<bool> channels_in_half(const PictureHead& head, LayerPrecision precision) {
+  std::vector<bool> may_be_half(head.channels.size(), false);
+  if (precision == LayerPrecision::kHalf)
+    for (size_t i = 0; i < may_be_half.size(); ++i)
+      may_be_half[i] = may_be_in_half(head.channels[i]);
+  return may_be_half;
+}
+
+/// Writes a colour of `space` as three bytes in sRGB.
+uint8_t* put_srgb8(uint8_t* out, Rgb color, const RgbColorSpace* space, float exposure) {
+  if (space != nullptr && space->name() != "srgb")
+    color = RgbColorSpace::srgb().from_xyz(space->to_xyz(color));
+  for (int c = 0; c < 3; ++c) *out++ = encode_srgb8(color[c] * exposure);
+  return out;
+}
+
 /// Calls body(y) for each row of the film, rows in parallel.
 template <class Body>
 void for_each_row(const Film& film, const Body& body) {
@@ -140,27 +157,33 @@ Picture film_picture(const Film& film, Metadata metadata) {
 void write_film_exr(const std::string& path, const Film& film, Metadata metadata,
                     LayerPrecision precision) {
   const PictureHead head = film_head(film, std::move(metadata));
-  std::vector<bool> may_be_half(head.channels.size(), false);
-  if (precision == LayerPrecision::kHalf)
-    for (size_t i = 0; i < may_be_half.size(); ++i)
-      may_be_half[i] = may_be_in_half(head.channels[i]);
-  write_exr(path, head, may_be_half, [&](int y, float* row) { film_row(film, y, row); });
+  write_exr(path, head, channels_in_half(head, precision),
+            [&](int y, float* row) { film_row(film, y, row); });
 }
 
 std::vector<uint8_t> film_srgb8(const Film& film, float exposure) {
   const PixelBounds& bounds = film.bounds();
-  const RgbColorSpace* space = film.settings().color_space;
-  const bool convert = space != nullptr && space->name() != "srgb";
   std::vector<uint8_t> bytes(bounds.area() * 3);
   for_each_row(film, [&](int y) {
     const size_t row = static_cast<size_t>(y - bounds.y0) * bounds.width();
     uint8_t* out = bytes.data() + row * 3;
-    for (int x = bounds.x0; x < bounds.x1; ++x) {
-      Rgb color = film.value(x, y);
-      if (convert) color = RgbColorSpace::srgb().from_xyz(space->to_xyz(color));
-      for (int c = 0; c < 3; ++c) *out++ = encode_srgb8(color[c] * exposure);
-    }
+    for (int x = bounds.x0; x < bounds.x1; ++x)
+      out = put_srgb8(out, film.value(x, y), film.settings().color_space, exposure);
   });
+  return bytes;
+}
+
+std::vector<uint8_t> picture_srgb8(const Picture& picture, float exposure) {
+  const size_t channels = picture.channels.size();
+  const auto r = static_cast<size_t>(picture.find_channel("R"));
+  const auto g = static_cast<size_t>(picture.find_channel("G"));
+  const auto b = static_cast<size_t>(picture.find_channel("B"));
+  std::vector<uint8_t> bytes(picture.window.area() * 3);
+  uint8_t* out = bytes.data();
+  for (size_t i = 0; i < picture.pixels.size(); i += channels) {
+    const float* pixel = picture.pixels.data() + i;
+    out = put_srgb8(out, {pixel[r], pixel[g], pixel[b]}, picture.color_space, exposure);
+  }
   return bytes;
 }
 
@@ -168,6 +191,17 @@ void write_film(const std::string& path, const Film& film, Metadata metadata, fl
                 LayerPrecision precision) {
   write_film_exr(path, film, std::move(metadata), precision);
   write_preview(path, film, exposure);
+}
+
+void write_picture(const std::string& path, const Picture& picture, float exposure,
+                   LayerPrecision precision) {
+  const size_t row = static_cast<size_t>(picture.width()) * picture.channels.size();
+  write_exr(path, picture, channels_in_half(picture, precision), [&](int y, float* out) {
+    const size_t first = row * static_cast<size_t>(y - picture.window.y0);
+    std::copy_n(picture.pixels.begin() + static_cast<ptrdiff_t>(first), row, out);
+  });
+  write_png(png_path_beside(path), picture.width(), picture.height(),
+            picture_srgb8(picture, exposure));
 }
 
 void write_preview(const std::string& path, const Film& film, float exposure) {

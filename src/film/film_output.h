@@ -23,6 +23,9 @@ Picture film_picture(const Film& film, Metadata metadata);
 /// The film's R G B times `exposure`, in sRGB primaries and transfer, interleaved bytes.
 std::vector<uint8_t> film_srgb8(const Film& film, float exposure);
 
+/// The same of a picture in memory that has the channels R, G and B.
+std::vector<uint8_t> picture_srgb8(const Picture& picture, float exposure);
+
 /// kHalf writes layers as 16-bit floats if their values fit, which halves a file. Layers that need
 /// all digits, such as R G B, Z and samples, are always 32-bit floats.
 enum class LayerPrecision { kHalf, kFloat };
@@ -33,6 +36,9 @@ void write_film_exr(const std::string& path, const Film& film, Metadata metadata
 /// The same, plus a PNG at png_path_beside(path).
 void write_film(const std::string& path, const Film& film, Metadata metadata, float exposure,
                 LayerPrecision precision = LayerPrecision::kHalf);
+/// The same for a picture in memory. Channels may be 16-bit floats as in the film's files.
+void write_picture(const std::string& path, const Picture& picture, float exposure,
+                   LayerPrecision precision = LayerPrecision::kHalf);
 /// Writes only the PNG.
 void write_preview(const std::string& path, const Film& film, float exposure);
 

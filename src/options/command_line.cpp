@@ -47,6 +47,7 @@ void set_action(const std::string& command, CommandLine& line) {
   if (command == "bench") line.action = Action::kBench;
   if (command == "convert") line.action = Action::kConvert;
   if (command == "view") line.action = Action::kView;
+  if (command == "mix") line.action = Action::kMix;
 }
 
 /// Gives the options about scene files to the commands that read one.

@@ -1,4 +1,5 @@
-// The rows of the option table. A new option is one row here plus its use in apps/.
+// The rows of the option table. A new option is one row here, or in picture_rows.cpp, plus its use
+// in apps/.
 #include "options/options.h"
 
 #include <fmt/format.h>
@@ -14,6 +15,8 @@
 #include "integrator/presets/integrator_table.h"
 #include "integrator/presets/route_presets.h"
 #include "options/import_rows.h"
+#include "options/output_options.h"
+#include "options/picture_rows.h"
 #include "options/view_rows.h"
 
 namespace nephroid {
@@ -26,11 +29,6 @@ constexpr uint64_t kMinMemory = uint64_t{256} << 20;
 constexpr int kMaxPilotPasses = 100000;
 constexpr int64_t kMaxBenchRepeats = 1000;
 constexpr int64_t kMaxBenchPasses = std::numeric_limits<uint32_t>::max() - 1;
-
-template <auto Command>
-void set_float(CommandLine& line, const std::string&) {
-  (line.*Command).layer_precision = LayerPrecision::kFloat;
-}
 
 /// The names of a list with commas.
 std::vector<std::string> parse_names(const char* option, const std::string& text,
@@ -45,16 +43,6 @@ std::vector<std::string> parse_names(const char* option, const std::string& text
     begin = comma + 1;
   }
   return names;
-}
-
-template <auto Command>
-void set_output(CommandLine& line, const std::string& text) {
-  const bool is_exr = text.size() > 4 && text.compare(text.size() - 4, 4, ".exr") == 0;
-  if (!is_exr)
-    throw UsageError("--output: '" + text +
-                     "' is not valid, expected a name that ends in .exr (a .png is written beside "
-                     "it)");
-  (line.*Command).output = text;
 }
 
 template <auto Command>
@@ -86,6 +74,19 @@ void set_crop(CommandLine& line, const std::string& text) {
 template <auto Command>
 void add_setting(CommandLine& line, const std::string& text) {
   (line.*Command).settings.push_back(parse_setting(text));
+}
+
+void set_layers(CommandLine& line, const std::string& text) {
+  constexpr std::pair<std::string_view, LayerChoice> kChoices[] = {
+      {"routes", LayerChoice::kRoutes},
+      {"lights", LayerChoice::kLights},
+      {"both", LayerChoice::kBoth}};
+  for (const auto& [name, choice] : kChoices)
+    if (text == name) {
+      line.render.routes.layers = choice;
+      return;
+    }
+  throw UsageError("--layers: '" + text + "' is not valid, expected routes, lights or both");
 }
 
 void set_outliers(CommandLine& line, const std::string& text) {
@@ -136,9 +137,6 @@ const std::string kRouteHelp =
 constexpr const char* kAovHelp =
     "One more layer: the light of all paths that match. It does not matter which route renders "
     "them.";
-constexpr const char* kFloatHelp =
-    "All layers in 32-bit floats. Otherwise R, G, B, Z, positions and variances are, and other "
-    "layers are in 16 bits unless these do not hold their values.";
 constexpr const char* kStrictHelp = "Overlapping routes are an error.";
 constexpr const char* kSettingHelp =
     "Set a number of the integrator, as in max-depth=8. May be given several times.";
@@ -153,13 +151,6 @@ void set_stream(CommandLine& line, const std::string& text) {
   line.render.stream = parse_names("--stream", text, "picture,caustic");
 }
 
-void set_heat_map(CommandLine& line, const std::string& text) {
-  const bool is_png = text.size() > 4 && text.compare(text.size() - 4, 4, ".png") == 0;
-  if (!is_png)
-    throw UsageError("--heat: '" + text + "' is not valid, expected a name that ends in .png");
-  line.compare.heat_map = text;
-}
-
 void add_only(CommandLine& line, const std::string& text) {
   for (std::string& name : parse_names("--only", text, "cup,room"))
     line.bench.only.push_back(std::move(name));
@@ -169,6 +160,7 @@ constexpr CommandDescription kCommands[] = {
     {"render", "Render a scene to an EXR and a PNG."},
     {"view", "Show a scene while it renders, in the browser: look around, mix its lights."},
     {"merge", "Add up pictures of different passes of one render."},
+    {"mix", "Dim, brighten and tint lights and routes of a picture, without rendering again."},
     {"info", "Describe a scene file, or the render stored in a picture."},
     {"routes", "Say who renders which light, prove it, and measure it in a scene."},
     {"compare", "Measure how far a picture is from a reference."},
@@ -186,6 +178,11 @@ const OptionDescription kOptions[] = {
      set_output<&CommandLine::render>},
     {"render", "--aov", "", "NAME=EXPR", "", "", "Output", kAovHelp, true,
      add_aov<&CommandLine::render>, true},
+    {"render", "--layers", "", "routes|lights|both", "", "routes", "Output",
+     "Layers to mix the picture from (nephroid mix). lights adds one for each lamp, both one for "
+     "each route and lamp, ROUTE_LAMP. Of more than 12 lamps, the 11 strongest have their own and "
+     "other-lights has the rest.",
+     false, set_layers, true},
     {"render", "--resume", "", "", "", "", "Output",
      "Go on with the render of OUT.state, or start it. The result has the bits of an uninterrupted "
      "run.",
@@ -273,14 +270,6 @@ const OptionDescription kOptions[] = {
        if (l.render.memory < kMinMemory)
          throw UsageError("--memory: '" + t + "' is not valid, expected at least 256M");
      }, true},
-    {"merge", "PICTURE", "", "", "", "", "",
-     "Pictures of one render, of disjoint passes (render --passes A..B), or their states, which "
-     "must be beside them.", true,
-     [](CommandLine& l, const std::string& t) { l.merge.inputs.push_back(t); }},
-    {"merge", "--output", "-o", "OUT.exr", "", "", "",
-     "Their sum, from which a render can go on; its state and a PNG are written beside it.", false,
-     set_output<&CommandLine::merge>},
-    {"merge", "--float", "", "", "", "", "", kFloatHelp, false, set_float<&CommandLine::merge>},
     {"routes", "SCENE", "", "", "", "none", "",
      "A scene, - for standard input: what of the routes can occur in it, and how its light divides "
      "among them.", false,
@@ -312,20 +301,6 @@ const OptionDescription kOptions[] = {
     {"convert", "OUT.pbrt", "", "", "", "", "",
      "The scene as text. Meshes and images of the file get names that begin like it.", false,
      set_converted},
-    {"compare", "REF", "", "", "", "", "", "The reference picture.", false,
-     [](CommandLine& l, const std::string& t) { l.compare.reference = t; }},
-    {"compare", "TEST", "", "", "", "", "", "The picture to measure, of the same size.", false,
-     [](CommandLine& l, const std::string& t) { l.compare.test = t; }},
-    {"compare", "--heat", "", "OUT.png", "", "none", "",
-     "Write the squared relative error of each pixel in false colours and print their scale.",
-     false, set_heat_map},
-    {"compare", "--subtract-reference-error", "", "", "", "", "",
-     "Take the reference's own error (its stderr channels) out of the squared errors.", false,
-     [](CommandLine& l, const std::string&) { l.compare.subtract_reference_error = true; }},
-    {"compare", "--exposure", "", "X", "", "1", "", "Exposure of both pictures for FLIP.", false,
-     [](CommandLine& l, const std::string& t) {
-       l.compare.exposure = static_cast<float>(parse_number("--exposure", t, 0, 1e6, true));
-     }},
     {"bench", "SUITE", "", "", "", "", "", "A suite (docs/bench.md has the format).", false,
      [](CommandLine& l, const std::string& t) { l.bench.suite = t; }},
     {"bench", "--time", "", "TIME", "s, m or h", "the suite's", "",
@@ -377,6 +352,8 @@ std::span<const OptionDescription> option_table() {
       const std::vector<OptionDescription> shared = import_rows(row.command);
       table.insert(table.end(), shared.begin(), shared.end());
     }
+    const std::vector<OptionDescription> of_pictures = picture_rows();
+    table.insert(table.end(), of_pictures.begin(), of_pictures.end());
     const std::vector<OptionDescription> view = view_rows(table);
     table.insert(table.end(), view.begin(), view.end());
     return table;

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "film/film_output.h"
+#include "image/mix.h"
 #include "input/import_options.h"
 #include "scene/scene.h"
-#include "session/light_layers.h"
 #include "session/route_plan.h"
 #include "session/settings/integrator_settings.h"
 
@@ -31,7 +31,6 @@ struct RenderCommand {
   uint64_t memory = 0;  ///< bytes; 0: the memory of the machine
   std::optional<uint64_t> seed;
   SettingList settings;
-  LayerChoice layers = LayerChoice::kRoutes;
   bool reject_outliers = false;
   bool resume = false;
   double checkpoint_interval = 60;  ///< seconds
@@ -71,6 +70,14 @@ struct RoutesCommand {
   uint32_t passes = 8;  ///< passes of the pilot
 };
 
+/// Arguments of `nephroid mix`.
+struct MixCommand {
+  std::string picture;
+  Mix mix;
+  std::string output;
+  LayerPrecision layer_precision = LayerPrecision::kHalf;
+};
+
 /// Arguments of `nephroid merge`.
 struct MergeCommand {
   std::vector<std::string> inputs;
@@ -98,7 +105,9 @@ struct BenchCommand {
   bool quiet = false;
 };
 
-enum class Action { kRender, kMerge, kInfo, kCompare, kRoutes, kBench, kConvert, kView, kPrint };
+enum class Action {
+  kRender, kView, kMerge, kMix, kInfo, kCompare, kRoutes, kBench, kConvert, kPrint
+};
 
 /// A parsed command line.
 struct CommandLine {
@@ -111,6 +120,7 @@ struct CommandLine {
   RoutesCommand routes;
   BenchCommand bench;
   ConvertCommand convert;
+  MixCommand mix;
   ImportOptions import;  ///< options about scene files, copied to the command after parsing
   std::string text;      ///< text of kPrint: help, version and the like
 };

@@ -153,7 +153,7 @@ RouteCompilation compile_routes(std::span<const RouteDefinition> routes,
   const Nfa nfa = copy_all(trees, routes, aovs, copies);
   const SymbolClasses classes = classify_symbols(nfa.atoms, labels);
   const MatchAutomaton matches = determinise(nfa, classes, copies);
-  const PartAutomaton parts = divide_into_parts(matches, classes, routes);
+  const PartAutomaton parts = divide_into_parts(matches, classes, routes, aovs);
   Proof proof = prove({routes, labels, classes, matches, parts, symbols, camera_connects});
   proof.aov_matches.resize(aovs.size());
   RouteTables tables = write_out(parts.automaton, reverse(parts.automaton), classes);

@@ -8,6 +8,24 @@
 #include "core/errors.h"
 
 namespace nephroid {
+namespace {
+
+constexpr int kAllRoutes = -2;
+
+/// [AOV]: number of the route whose paths alone count, kAllRoutes if all do, or kNoRoute.
+std::vector<int> numbers_of_routes(std::span<const RouteDefinition> routes,
+                                   std::span<const AovDefinition> aovs) {
+  std::vector<int> numbers;
+  for (const AovDefinition& aov : aovs) {
+    const auto route = std::ranges::find(routes, aov.route, &RouteDefinition::name);
+    numbers.push_back(aov.route.empty()       ? kAllRoutes
+                      : route == routes.end() ? kNoRoute
+                                              : static_cast<int>(route - routes.begin()));
+  }
+  return numbers;
+}
+
+}  // namespace
 
 bool can_reach(const RouteDefinition& route, LightKind light, bool touches_hair) {
   return (light != LightKind::kMedium && !touches_hair) || !route.estimator->starts_at_lights;
@@ -20,19 +38,28 @@ int owner_of(const WordMatches& matches, std::span<const RouteDefinition> routes
 }
 
 PartAutomaton divide_into_parts(const MatchAutomaton& m, const SymbolClasses& classes,
-                                std::span<const RouteDefinition> routes) {
+                                std::span<const RouteDefinition> routes,
+                                std::span<const AovDefinition> aovs) {
   using Meaning = std::pair<int, std::vector<int>>;
+  const std::vector<int> routes_of_aovs = numbers_of_routes(routes, aovs);
   std::map<Meaning, int> numbers;
-  const auto meaning_at = [&](int state, int light) -> const WordMatches& {
+  const auto word_at = [&](int state, int light) -> const WordMatches& {
     return m.matches[m.automaton.at(state, light)];
+  };
+  const auto meaning_of = [&](const WordMatches& word, int owner) {
+    Meaning meaning{owner, word.aovs};
+    std::erase_if(meaning.second, [&](int aov) {
+      return routes_of_aovs[aov] != kAllRoutes && routes_of_aovs[aov] != owner;
+    });
+    return meaning;
   };
   const int states = static_cast<int>(m.automaton.states());
   const int lights = static_cast<int>(m.automaton.lights);
   for (int s = 0; s < states; ++s)
     for (int l = 0; l < lights; ++l) {
-      const WordMatches& word = meaning_at(s, l);
+      const WordMatches& word = word_at(s, l);
       const int owner = owner_of(word, routes, classes.kind_of_light(l));
-      if (!word.is_marked && owner != kNoRoute) numbers[{owner, word.aovs}] = 0;
+      if (!word.is_marked && owner != kNoRoute) numbers[meaning_of(word, owner)] = 0;
     }
   if (numbers.size() > kNoPart)
     throw UsageError("the routes and AOVs overlap in " + std::to_string(numbers.size()) +
@@ -47,13 +74,13 @@ PartAutomaton divide_into_parts(const MatchAutomaton& m, const SymbolClasses& cl
   Automaton divided = m.automaton;
   for (int s = 0; s < states; ++s)
     for (int l = 0; l < lights; ++l) {
-      const WordMatches& word = meaning_at(s, l);
+      const WordMatches& word = word_at(s, l);
       const int owner = owner_of(word, routes, classes.kind_of_light(l));
       const bool counts =
           owner != kNoRoute &&
           (!word.is_marked ||
            std::find(word.marked_by.begin(), word.marked_by.end(), owner) != word.marked_by.end());
-      divided.output[s * lights + l] = counts ? numbers.at({owner, word.aovs}) : int{kNoPart};
+      divided.output[s * lights + l] = counts ? numbers.at(meaning_of(word, owner)) : int{kNoPart};
     }
   result.automaton = minimise(divided);
   return result;

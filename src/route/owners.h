@@ -28,6 +28,7 @@ struct PartAutomaton {
 
 /// Throws UsageError if there are too many parts.
 PartAutomaton divide_into_parts(const MatchAutomaton& matches, const SymbolClasses& classes,
-                                std::span<const RouteDefinition> routes);
+                                std::span<const RouteDefinition> routes,
+                                std::span<const AovDefinition> aovs);
 
 }  // namespace nephroid

@@ -31,6 +31,8 @@ struct AovDefinition {
   std::string name;
   std::string expression;
   ExpressionSource source;
+  std::string route = {};  ///< route whose paths alone count; empty: those of all routes
+  std::string light = {};  ///< lamp of a layer by light (session/light_layers.h); empty: none
 };
 
 /// Parse and check "NAME=EXPRESSION:ESTIMATOR" and "NAME=EXPRESSION". The estimator is one of

@@ -20,8 +20,7 @@ constexpr const char* kReservedNames[] = {
     "R",        "G",      "B",      "A",      "Z",       "N",        "P",
     "Ns",       "u",      "v",      "Y",      "RY",      "BY",       "dzdx",
     "dzdy",     "albedo", "Albedo", "stderr", "samples", "Variance", "RelativeVariance",
-    "outliers", "bias"};
-constexpr size_t kLongestName = 64;
+    "outliers", "bias",   "picture"};
 
 bool is_space(char c) {
   return c == ' ' || c == '\t' || c == '\r';
@@ -87,22 +86,34 @@ const EstimatorTraits* read_estimator(const std::string& text, size_t colon, Tra
                                             known + did_you_mean(name, names));
 }
 
+bool is_letter_of_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+}
+
+bool is_reserved(const std::string& name) {
+  return std::ranges::find(kReservedNames, name) != std::end(kReservedNames);
+}
+
 }  // namespace
+
+bool is_layer_name(const std::string& name) {
+  return !name.empty() && name.size() <= kMaxLayerName &&
+         std::ranges::all_of(name, is_letter_of_name) && !is_reserved(name);
+}
 
 void check_layer_name(const std::string& name, const ExpressionSource& source) {
   if (name.empty())
     throw expression_error(source, source.column, "expected a name before '=', found none");
   for (size_t i = 0; i < name.size(); ++i)
-    if (std::isalnum(static_cast<unsigned char>(name[i])) == 0 && name[i] != '_' && name[i] != '-')
+    if (!is_letter_of_name(name[i]))
       throw expression_error(source, source.column + i,
                              "expected a name of letters, digits, '_' and '-', found " +
                                  found_text(name, i, "the end"));
-  if (name.size() > kLongestName)
+  if (name.size() > kMaxLayerName)
     throw expression_error(
         source, source.column,
-        "expected a name of at most " + std::to_string(kLongestName) + " letters");
-  if (std::find(std::begin(kReservedNames), std::end(kReservedNames), name) !=
-      std::end(kReservedNames))
+        "expected a name of at most " + std::to_string(kMaxLayerName) + " letters");
+  if (is_reserved(name))
     throw expression_error(source, source.column,
                            "'" + name +
                                "' is the name of a layer or channel that "

@@ -60,6 +60,7 @@ RenderIdentity identity_of(const RenderRequest& request, const LoadedScene& load
     identity.options += " " + import;
   identity.routes = routes_text(plan);
   identity.aovs = aovs_text(plan);
+  identity.layers_by_light = layers_by_light_text(layers_by_light(plan));
   return identity;
 }
 
@@ -121,6 +122,7 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
   warn_of(loaded.warnings, warnings_.input);
   if (request.strict) refuse_unknown_names(loaded, choice_);
   plan_ = plan_of(request.routes, choice_.name);
+  add_layers(request.routes.layers, scene, &plan_);
   warn_of(choice_.warnings, warnings_.input);
 
   for (std::string& note : notes_of_short_paths(scene, choice_.settings))

@@ -73,7 +73,9 @@ std::string routes_text(const RoutePlan& plan) {
 
 std::string aovs_text(const RoutePlan& plan) {
   std::string text;
-  for (const AovDefinition& aov : plan.aovs) text += aov.name + " = " + aov.expression + "\n";
+  for (const AovDefinition& aov : plan.aovs)
+    text += aov.name + " = " + aov.expression +
+            (aov.route.empty() ? "" : " of route " + aov.route) + "\n";
   return text;
 }
 

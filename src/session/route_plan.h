@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "integrator/presets/estimator_set.h"
+#include "session/light_layers.h"
 
 namespace nephroid {
 
-/// --integrator, --routes, --route, --aov and --strict-routes as given.
+/// --integrator, --routes, --route, --aov, --layers and --strict-routes as given.
 struct RouteChoice {
   std::string integrator;  ///< empty: not given
   const std::string& integrator_or(const std::string& other) const {
@@ -18,6 +19,7 @@ struct RouteChoice {
   std::string preset_or_file;
   std::vector<RouteDefinition> routes;
   std::vector<AovDefinition> aovs;
+  LayerChoice layers = LayerChoice::kRoutes;  ///< of use to a render: layers by light need a scene
   bool strict = false;
 };
 

@@ -11,6 +11,7 @@
 #include "film/film_output.h"
 #include "input/file_bytes.h"
 #include "session/camera_edit.h"
+#include "session/camera_text.h"
 #include "view/inspection_json.h"
 #include "view/json_text.h"
 #include "view/live_render.h"

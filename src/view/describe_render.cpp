@@ -1,42 +1,46 @@
 #include "view/describe_render.h"
 
 #include <algorithm>
-#include <set>
 #include <sstream>
 
 #include "film/film_layers.h"
+#include "image/mix.h"
 
 namespace nephroid {
 namespace {
 
+/// Layers of lamps by route are not mixed on the page: those of lamps and of routes are.
 LayerKind kind_of(const std::string& name, const FilmLayout& layout,
-                  const std::set<std::string>& lights) {
+                  const std::vector<LayerByLight>& lights) {
   if (name == "picture") return LayerKind::kPicture;
   if (std::ranges::find(layout.routes, name) != layout.routes.end()) return LayerKind::kRoute;
-  if (lights.contains(name)) return LayerKind::kLight;
+  if (std::ranges::find(lights, name, &LayerByLight::layer) != lights.end())
+    return LayerKind::kLight;
   if (std::ranges::find(layout.aovs, name) != layout.aovs.end()) return LayerKind::kAov;
   return LayerKind::kFeature;
 }
 
-std::vector<LiveLayer> layers_of(const Film& film, const Scene& scene) {
-  std::set<std::string> lights;
-  for (const AovDefinition& light : light_layers(scene)) lights.insert(light.name);
+std::vector<LiveLayer> layers_of(const Render& render) {
+  const Film& film = render.film();
+  const std::vector<LayerByLight> lights = layers_by_light(render.plan());
   std::vector<LiveLayer> layers;
   for (const FilmLayer& layer : film_layers(film))
     layers.push_back({layer.name, kind_of(layer.name, film.layout(), lights), layer.channels});
   return layers;
 }
 
+/// Why layers do not add up to the picture; empty if they do.
 std::string why_mix_is_inexact(const Film& film) {
-  if (film.rejection() != nullptr) return "outliers are rejected, so layers do not add up exactly";
-  if (film.settings().max_component < kInfinity)
-    return "the film clamps bright samples, so layers change in other ways than the picture";
-  return {};
+  const bool clamps = film.settings().max_component < kInfinity;
+  std::string why;
+  for (const std::string& reason : inexact_mix_reasons(clamps, film.rejection() != nullptr))
+    why += (why.empty() ? "" : "; ") + reason;
+  return why;
 }
 
 }  // namespace
 
-void apply(const RenderChange& change, RenderRequest* request, LayerChoice* layers) {
+void apply(const RenderChange& change, RenderRequest* request) {
   if (change.integrator) {
     request->routes.integrator = *change.integrator;
     request->routes.preset_or_file.clear();
@@ -47,7 +51,7 @@ void apply(const RenderChange& change, RenderRequest* request, LayerChoice* laye
     request->routes.routes.clear();
     if (!change.routes->empty()) request->routes.integrator.clear();
   }
-  if (change.layers) *layers = *change.layers;
+  if (change.layers) request->routes.layers = *change.layers;
   if (change.seed) request->seed = *change.seed;
   if (change.time) request->options.time_limit = *change.time;
   if (change.noise) request->options.noise_target = *change.noise;
@@ -62,11 +66,6 @@ void apply(const RenderChange& change, RenderRequest* request, LayerChoice* laye
   }
 }
 
-void add_layers(RouteChoice* routes, LayerChoice choice, const Scene& scene) {
-  if (choice == LayerChoice::kRoutes) return;
-  for (AovDefinition& light : light_layers(scene)) routes->aovs.push_back(std::move(light));
-}
-
 void describe(const Render& render, const LoadedScene& loaded, bool is_preview, LiveState* state) {
   const Film& film = render.film();
   state->is_preview = is_preview;
@@ -76,7 +75,7 @@ void describe(const Render& render, const LoadedScene& loaded, bool is_preview, 
   state->progress = {};
   // A preview has no layers of its own.
   if (is_preview) return;
-  state->layers = layers_of(film, *loaded.scene);
+  state->layers = layers_of(render);
   state->why_mix_is_inexact = why_mix_is_inexact(film);
   state->notes = render.notes();
   state->report.clear();
@@ -84,12 +83,12 @@ void describe(const Render& render, const LoadedScene& loaded, bool is_preview, 
   state->camera_type = loaded.description.camera ? loaded.description.camera->type : "perspective";
 }
 
-LiveSettings settings_of(const RenderRequest& request, LayerChoice layers, const Render& render,
-                         const Scene& scene, const FilmDescription& full) {
+LiveSettings settings_of(const RenderRequest& request, const Render& render, const Scene& scene,
+                         const FilmDescription& full) {
   LiveSettings settings;
   settings.integrator = request.routes.integrator_or(render.integrator().name);
   settings.routes = request.routes.preset_or_file;
-  settings.layers = layers;
+  settings.layers = request.routes.layers;
   settings.seed = request.seed.value_or(scene.scene_seed);
   settings.time_limit = request.options.time_limit;
   settings.noise_target = request.options.noise_target;

@@ -11,15 +11,13 @@
 namespace nephroid {
 
 /// Applies the changes that begin anew.
-void apply(const RenderChange& change, RenderRequest* request, LayerChoice* layers);
-/// Adds the AOVs of a choice of layers.
-void add_layers(RouteChoice* routes, LayerChoice choice, const Scene& scene);
+void apply(const RenderChange& change, RenderRequest* request);
 
 /// Sets what the state says of a render before its first picture.
 void describe(const Render& render, const LoadedScene& loaded, bool is_preview, LiveState* state);
 /// `full` is the film without preview.
-LiveSettings settings_of(const RenderRequest& request, LayerChoice layers, const Render& render,
-                         const Scene& scene, const FilmDescription& full);
+LiveSettings settings_of(const RenderRequest& request, const Render& render, const Scene& scene,
+                         const FilmDescription& full);
 
 /// Why a render has ended by itself: "time limit".
 std::string done_text(const RenderResult& result);

@@ -12,7 +12,8 @@ namespace nephroid {
 
 using Json = nlohmann::ordered_json;
 
-inline Json json_of(const Vec3f& v) {
+template <class T>
+Json json_of(const Imath::Vec3<T>& v) {
   return {v.x, v.y, v.z};
 }
 inline Json json_of(const Rgb& color) {

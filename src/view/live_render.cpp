@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "input/scene_files.h"
 #include "integrator/presets/integrator_table.h"
+#include "scene/scene_view.h"
 #include "view/comparisons.h"
 #include "view/describe_render.h"
 
@@ -58,11 +59,10 @@ RenderRequest preview_of(const RenderRequest& request, const FilmDescription& fu
 
 }  // namespace
 
-LiveRender::LiveRender(RenderRequest request, LayerChoice layers)
+LiveRender::LiveRender(RenderRequest request)
     : preview_edge_(kFirstPreviewEdge) {
   state_.name = request.scene;
   edits_.request = std::move(request);
-  edits_.layers = layers;
   files_ = {state_.name};
   thread_ = std::thread([this] { work(); });
 }
@@ -105,7 +105,8 @@ uint64_t LiveRender::move_camera(const CameraChange& change) {
   const std::lock_guard lock(mutex_);
   if (!is_loaded_) throw UsageError("the scene is not loaded");
   CameraPose pose = change.applied_to(state_.camera);
-  check_pose(pose);
+  SceneDescription trial = camera_scene_;
+  set_camera(&trial, pose);  // throws for a pose that is none
   state_.camera = pose;
   edits_.camera = std::move(pose);
   edits_.is_moving = change.is_moving;
@@ -116,7 +117,7 @@ uint64_t LiveRender::change(const RenderChange& change) {
   if (change.integrator) plan_of_integrator(*change.integrator);  // throws for an unknown name
   const std::lock_guard lock(mutex_);
   if (change.begins_anew()) {
-    apply(change, &edits_.request, &edits_.layers);
+    apply(change, &edits_.request);
     edits_.is_moving = false;
     return note_edit();
   }
@@ -233,16 +234,21 @@ void LiveRender::load(const Edits& edits) {
   });
   loaded_.reset();
   loaded_ = load_scene(edits.request);
-  own_camera_ = camera_pose(loaded_->description, *loaded_->scene);
+  const SceneDescription& description = loaded_->description;
+  own_camera_ = description.camera;
   const std::lock_guard lock(mutex_);
+  if (!edits_.camera) state_.camera = camera_pose(description, *loaded_->scene);
+  camera_scene_.camera = description.camera;
+  camera_scene_.film = description.film;
   is_loaded_ = true;
   files_ = {edits.request.scene};
-  const SceneFiles& files = *loaded_->description.files;
+  const SceneFiles& files = *description.files;
   for (const std::string& name : files.names()) files_.push_back(files.path_of(name));
 }
 
 void LiveRender::render(const Edits& edits) {
-  set_camera(&loaded_->description, edits.camera.value_or(own_camera_));
+  loaded_->description.camera = own_camera_;
+  if (edits.camera) set_camera(&loaded_->description, *edits.camera);
   Diagnostics diagnostics;
   RenderRequest request = request_of(edits.request);
   renew_camera(*loaded_->scene, loaded_->description, scene_overrides(request), diagnostics);
@@ -250,8 +256,6 @@ void LiveRender::render(const Edits& edits) {
   if (edits.is_moving) {
     request = preview_of(edits.request, full, preview_edge_);
     renew_camera(*loaded_->scene, loaded_->description, scene_overrides(request), diagnostics);
-  } else {
-    add_layers(&request.routes, edits.layers, *loaded_->scene);
   }
 
   RenderWarnings warnings;
@@ -262,8 +266,7 @@ void LiveRender::render(const Edits& edits) {
     describe(render, *loaded_, edits.is_moving, &state);
     state.status = LiveStatus::kRendering;
     state.message.clear();
-    state.settings = settings_of(edits.request, edits.layers, render, *loaded_->scene, full);
-    if (edits.generation == state.generation) state.camera = edits.camera.value_or(own_camera_);
+    state.settings = settings_of(edits.request, render, *loaded_->scene, full);
     if (!edits.is_moving) state.warnings = texts;
   });
   connect(render, edits);

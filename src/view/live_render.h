@@ -31,7 +31,7 @@ class LiveRender final : public ViewSource {
  public:
   /// Loads the scene of the request and renders it, until the end of its lifetime. The request has
   /// no output file.
-  LiveRender(RenderRequest request, LayerChoice layers);
+  explicit LiveRender(RenderRequest request);
   /// Stops within a fraction of a second.
   ~LiveRender() override;
   LiveRender(const LiveRender&) = delete;
@@ -66,7 +66,6 @@ class LiveRender final : public ViewSource {
   /// What the user has changed, read by the render's thread when it begins anew.
   struct Edits {
     RenderRequest request;
-    LayerChoice layers = LayerChoice::kRoutes;
     std::optional<CameraPose> camera;  ///< empty: the scene's own
     bool is_moving = false;
     bool reloads = true;
@@ -107,6 +106,7 @@ class LiveRender final : public ViewSource {
   uint64_t taken_generation_ = 0;  ///< generation of the edits that the thread has taken
   bool is_ending_ = false, is_paused_ = false;
   std::deque<std::shared_ptr<Task>> tasks_;
+  SceneDescription camera_scene_;  ///< camera and film of the scene alone, to try edits
   bool is_loaded_ = false;
   std::vector<std::string> files_;
   SignalFlags signals_;  ///< of the present run
@@ -114,7 +114,7 @@ class LiveRender final : public ViewSource {
 
   // Owned by the render's thread.
   std::optional<LoadedScene> loaded_;
-  CameraPose own_camera_;       ///< of the scene's file
+  std::optional<CameraDescription> own_camera_;  ///< of the scene's file
   double preview_edge_ = 0;     ///< pixels of the longer side while the camera moves
   double paused_seconds_ = 0;
   std::thread thread_;

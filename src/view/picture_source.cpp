@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <set>
 #include <thread>
 
 #include "core/errors.h"
 #include "film/exr_file.h"
 #include "film/film_output.h"
+#include "image/mix.h"
 #include "session/checkpoint/render_identity.h"
 #include "view/comparisons.h"
 #include "view/describe_render.h"
@@ -24,23 +24,15 @@ std::string prefix_of(const std::string& layer) {
   return layer == kPictureLayer || layer == "Z" || layer == "samples" ? "" : layer + ".";
 }
 
-/// Names of "NAME=EXPRESSION" lines.
-std::set<std::string> names_of(const std::string& definitions) {
-  std::set<std::string> names;
-  for (const std::string& line : lines_of(definitions)) names.insert(line.substr(0, line.find('=')));
-  return names;
-}
-
-LayerKind kind_of(const std::string& name, const std::set<std::string>& routes,
-                  const std::set<std::string>& aovs) {
-  if (routes.contains(name)) return LayerKind::kRoute;
-  if (aovs.contains(name)) return LayerKind::kLight;
+LayerKind kind_of(const std::string& name, const MixLayers& mixable) {
+  if (std::ranges::find(mixable.routes, name) != mixable.routes.end()) return LayerKind::kRoute;
+  if (std::ranges::find(mixable.by_light, name, &LayerByLight::layer) != mixable.by_light.end())
+    return LayerKind::kLight;
   return LayerKind::kFeature;
 }
 
 std::vector<LiveLayer> layers_of(const Picture& picture) {
-  const std::set<std::string> routes = names_of(value_of(picture.metadata, kRoutesKey));
-  const std::set<std::string> aovs = names_of(value_of(picture.metadata, kAovsKey));
+  const MixLayers mixable = mix_layers(picture);
   std::vector<LiveLayer> layers{{kPictureLayer, LayerKind::kPicture, "RGB"}};
   for (const std::string& channel : picture.channels) {
     const size_t dot = channel.rfind('.');
@@ -48,7 +40,7 @@ std::vector<LiveLayer> layers_of(const Picture& picture) {
     const std::string name = channel.substr(0, dot), letter = channel.substr(dot + 1);
     if (letter == "R" && picture.find_channel(name + ".G") >= 0 &&
         picture.find_channel(name + ".B") >= 0)
-      layers.push_back({name, kind_of(name, routes, aovs), "RGB"});
+      layers.push_back({name, kind_of(name, mixable), "RGB"});
     if (letter == "X" && picture.find_channel(name + ".Y") >= 0 &&
         picture.find_channel(name + ".Z") >= 0)
       layers.push_back({name, LayerKind::kFeature, "XYZ"});
@@ -79,8 +71,8 @@ PictureSource::PictureSource(const std::string& path) : picture_(read_picture(pa
   state_.settings.integrator = value_of(picture_.metadata, kIntegratorKey);
   state_.settings.width = state_.width;
   state_.settings.height = state_.height;
-  if (value_of(picture_.metadata, kOutliersKey) == "reject")
-    state_.why_mix_is_inexact = "outliers were rejected, so layers do not add up exactly";
+  for (const std::string& reason : inexact_mix_reasons(picture_.metadata))
+    state_.why_mix_is_inexact += (state_.why_mix_is_inexact.empty() ? "" : "; ") + reason;
 }
 
 uint64_t PictureSource::wait_for_news(uint64_t seen, double seconds) const {

@@ -49,11 +49,10 @@ class Members {
     return result;
   }
 
-  std::optional<Vec3f> point(const char* name) {
+  std::optional<Vec3d> point(const char* name) {
     const auto xyz = numbers<3>(name, -1e30, 1e30);
     if (!xyz) return std::nullopt;
-    return Vec3f(static_cast<float>((*xyz)[0]), static_cast<float>((*xyz)[1]),
-                 static_cast<float>((*xyz)[2]));
+    return Vec3d((*xyz)[0], (*xyz)[1], (*xyz)[2]);
   }
 
   std::optional<int> integer(const char* name, int min, int max) {

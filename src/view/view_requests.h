@@ -17,7 +17,7 @@ namespace nephroid {
 
 /// Changes of a pose; what is empty stays.
 struct CameraChange {
-  std::optional<Vec3f> eye, target, up;
+  std::optional<Vec3d> eye, target, up;
   std::optional<double> fov, lens_radius, focal_distance;
   std::optional<std::array<double, 2>> shutter;
   bool is_moving = false;  ///< coarse pictures, since more changes follow

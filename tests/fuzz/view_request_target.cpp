@@ -12,7 +12,8 @@ namespace {
 /// Checks the guarantees for users of a change.
 void check(const CameraChange& change) {
   for (const auto& point : {change.eye, change.target, change.up})
-    if (point && !is_finite(*point)) __builtin_trap();
+    if (point && !(std::isfinite(point->x) && std::isfinite(point->y) && std::isfinite(point->z)))
+      __builtin_trap();
   if (change.fov && !(*change.fov > 0 && *change.fov < 180)) __builtin_trap();
 }
 

@@ -29,6 +29,8 @@ constexpr Field kFields[] = {
     {kSeedKey, &RenderIdentity::seed, true},
     {kSceneKey, &RenderIdentity::scene, false},
     {kIntegratorKey, &RenderIdentity::integrator, false},
+    {kLayersByLightKey, &RenderIdentity::layers_by_light, false},
+    {kMaxComponentKey, &RenderIdentity::max_component, false},
     {kInstructionSetKey, &RenderIdentity::instruction_sets, false},
 };
 
@@ -109,6 +111,8 @@ void RenderIdentity::set_film(const Film& of, uint64_t of_seed) {
   film = fmt::format("{}x{}, columns {} to {}, rows {} to {}", of.settings().width,
                      of.settings().height, crop.x0, crop.x1, crop.y0, crop.y1);
   outliers = of.rejection() == nullptr ? "" : "reject";
+  const float limit = of.settings().max_component;
+  max_component = limit < kInfinity ? fmt::format("{}", limit) : "";
   seed = fmt::format("{}", of_seed);
 }
 

@@ -1,42 +1,16 @@
-// The identity of a render in the metadata of its picture, and the keys of all metadata that the
-// program writes. It must not know the progress of a render (checkpoint.h).
+// The identity of a render in the metadata of its picture. It must not know the progress of a render
+// (checkpoint.h).
 #pragma once
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "film/film.h"
 #include "film/image_io.h"
+#include "film/metadata_keys.h"
 
 namespace nephroid {
-
-/// Prefix of all metadata keys of the program.
-inline constexpr std::string_view kKeyPrefix = "nephroid:";
-
-// Keys of the render: the members of RenderIdentity.
-inline constexpr const char* kVersionKey = "nephroid:version";
-inline constexpr const char* kInstructionSetKey = "nephroid:instruction_set";
-inline constexpr const char* kSceneKey = "nephroid:scene";
-inline constexpr const char* kSceneHashKey = "nephroid:scene_hash";
-inline constexpr const char* kIntegratorKey = "nephroid:integrator";
-inline constexpr const char* kFilmKey = "nephroid:film";
-inline constexpr const char* kRoutesKey = "nephroid:routes";
-inline constexpr const char* kAovsKey = "nephroid:aovs";
-inline constexpr const char* kOptionsKey = "nephroid:options";
-inline constexpr const char* kOutliersKey = "nephroid:outliers";
-inline constexpr const char* kSeedKey = "nephroid:seed";
-// Key of the film, read by the program only (film_metadata.h).
-inline constexpr const char* kLayoutKey = "nephroid:layout";
-// Keys of the progress (checkpoint.h).
-inline constexpr const char* kPassesKey = "nephroid:passes";
-inline constexpr const char* kOpenPassKey = "nephroid:unfinished_pass";
-inline constexpr const char* kSecondsKey = "nephroid:seconds";
-inline constexpr const char* kHistoryKey = "nephroid:history";
-inline constexpr const char* kChoicesKey = "nephroid:choices";
-inline constexpr const char* kOutlierEstimatesKey = "nephroid:outlier_estimates";
-inline constexpr const char* kEstimatesKey = "nephroid:estimates:";  ///< + name of a route
 
 /// A render as text, for its picture's metadata. Empty members are left out.
 struct RenderIdentity {
@@ -52,6 +26,8 @@ struct RenderIdentity {
   // Informative: two pictures of the same render may differ in these.
   std::string scene;             ///< file name
   std::string integrator;        ///< integrator, preset or file of the routes
+  std::string layers_by_light;   ///< one layer a line (film/layers_by_light.h)
+  std::string max_component;     ///< limit of a sample's components; empty: none
   std::string instruction_sets;  ///< instruction sets of all runs (version.h), separated by "; "
 
   /// Version and instruction set of this program; all else is empty.
@@ -60,7 +36,7 @@ struct RenderIdentity {
   static RenderIdentity from_metadata(const Metadata& metadata);
   Metadata to_metadata() const;
 
-  /// Sets the members of the film and the seed.
+  /// Sets the members that the film decides, and the seed.
   void set_film(const Film& film, uint64_t seed);
 
   /// The differences that make `other` another render, such as "radius 1, here 2"; `name` ("here")

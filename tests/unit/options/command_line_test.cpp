@@ -118,8 +118,8 @@ TEST(CommandLine, Errors) {
   EXPECT_NE(usage_error("").find("no command"), std::string::npos);
   EXPECT_EQ(
       usage_error("paint s.pbrt"),
-      "unknown command 'paint', expected one of: render, merge, info, routes, compare, convert, "
-      "bench");
+      "unknown command 'paint', expected one of: render, merge, mix, info, routes, compare, "
+      "convert, bench");
   EXPECT_NE(usage_error("render").find("SCENE"), std::string::npos);
   EXPECT_NE(usage_error("render a.pbrt b.pbrt").find("b.pbrt"), std::string::npos);
   EXPECT_EQ(usage_error("render s.pbrt --resumes"),
@@ -127,7 +127,7 @@ TEST(CommandLine, Errors) {
   EXPECT_EQ(usage_error("info s.pbrt --zoom=3"),
             "unknown option '--zoom' (see nephroid info --help)");
   EXPECT_EQ(usage_error("rendr s.pbrt"),
-            "unknown command 'rendr', expected one of: render, merge, info, routes, compare, "
+            "unknown command 'rendr', expected one of: render, merge, mix, info, routes, compare, "
             "convert, bench, did you mean \"render\"?");
   EXPECT_NE(usage_error("merge -o c.exr").find("PICTURE"), std::string::npos);
   EXPECT_NE(usage_error("render s.pbrt --passes").find("--passes"), std::string::npos);
@@ -234,6 +234,18 @@ TEST(CommandLine, VersionIsThatOfTheBuild) {
   const std::string cmake = testing_support::read_source_file("CMakeLists.txt");
   EXPECT_NE(cmake.find(std::string("project(nephroid VERSION ") + kVersion + " "),
             std::string::npos);
+}
+
+TEST(CommandLine, MixHasGains) {
+  const CommandLine line = parse(
+      "mix a.exr --light key=2 --light rim=0.5,1,2 --route caustic=0 -o b.exr --float");
+  EXPECT_EQ(line.action, Action::kMix);
+  ASSERT_EQ(line.mix.mix.lights.size(), 2u);
+  EXPECT_EQ(line.mix.mix.lights[1].name, "rim");
+  EXPECT_EQ(line.mix.mix.lights[1].gain.b, 2.0f);
+  EXPECT_EQ(line.mix.mix.routes[0].name, "caustic");
+  EXPECT_EQ(line.mix.layer_precision, LayerPrecision::kFloat);
+  EXPECT_EQ(parse("render s.pbrt --layers both").render.routes.layers, LayerChoice::kBoth);
 }
 
 TEST(OptionTable, HelpHasEveryOptionAndStaysInItsColumns) {

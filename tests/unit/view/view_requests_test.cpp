@@ -27,8 +27,8 @@ TEST(ViewRequests, ACameraChangesInWhatItSays) {
   pose.target = {7, 8, 9};
   pose.lens_radius = 0.25;
   const CameraPose changed = change.applied_to(pose);
-  EXPECT_EQ(changed.eye, Vec3f(1, 2, 3));
-  EXPECT_EQ(changed.target, Vec3f(7, 8, 9));
+  EXPECT_EQ(changed.eye, Vec3d(1, 2, 3));
+  EXPECT_EQ(changed.target, Vec3d(7, 8, 9));
   EXPECT_EQ(changed.fov, 40.5);
   EXPECT_EQ(changed.lens_radius, 0.25);
   EXPECT_EQ(changed.shutter_open, 0.0);
