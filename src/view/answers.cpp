@@ -10,6 +10,7 @@
 #include "film/atomic_file.h"
 #include "film/film_output.h"
 #include "input/file_bytes.h"
+#include "input/scene_reader.h"
 #include "session/camera_edit.h"
 #include "session/camera_text.h"
 #include "view/inspection_json.h"
@@ -206,11 +207,14 @@ Answer Answers::save(const Parameters& parameters, const std::string&) {
   const std::string kind = text(parameters, "kind");
   const std::string stem = safe_stem(source_.state().name);
   if (kind == "camera" || kind == "scene") {
+    const fs::path name = source_.state().name;
+    if (kind == "scene" && !is_pbrt_scene(name.string()))
+      throw UsageError("only pbrt scenes can be included, expected one: nephroid convert makes it");
     std::string body;
     live().at_rest([&](const RenderAtRest& rest) {
       const SceneDescription& scene = rest.loaded.description;
       body = kind == "camera" ? camera_text(scene)
-                              : scene_text_with_camera(scene, source_.state().name);
+                              : scene_text_with_camera(scene, name.filename().string());
     });
     return text_answer(std::move(body), kind == "camera" ? "" : stem + "-view.pbrt");
   }

@@ -20,7 +20,7 @@ namespace {
 constexpr uint32_t kEndlessPasses = 1u << 30;
 constexpr double kLongestWaitForRest = 20;  ///< seconds
 /// While the camera moves, the resolution is such that the first picture takes about so long.
-constexpr double kPreviewSeconds = 0.05;
+constexpr double kPreviewSeconds = 0.035;
 constexpr double kFirstPreviewEdge = 256, kMinPreviewEdge = 96;  ///< pixels of the longer side
 
 double steady_seconds() {
@@ -63,6 +63,7 @@ LiveRender::LiveRender(RenderRequest request)
     : preview_edge_(kFirstPreviewEdge) {
   state_.name = request.scene;
   edits_.request = std::move(request);
+  state_.generation = edits_.generation;
   files_ = {state_.name};
   thread_ = std::thread([this] { work(); });
 }
