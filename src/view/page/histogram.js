@@ -78,7 +78,7 @@ export function drawHistogram(canvas, { bins }) {
       context.lineTo(((bin + 1) / kBins) * width, y);
     });
     context.lineTo(width, height);
-    context.globalAlpha = 0.75;
+    context.globalAlpha = 0.6;
     context.fill();
   });
   context.globalCompositeOperation = 'source-over';

@@ -3,6 +3,7 @@
 
 import { byId, element } from './dom.js';
 import { formatColor, formatShare, formatValue, luminance } from './format.js';
+import { drawablePixels } from './path_projection.js';
 
 const kTables = [
   ['routes', 'Routes'], ['layers', 'Layers'], ['lights', 'Lights, estimated'],
@@ -11,11 +12,15 @@ const kTables = [
 export class InspectorPanel {
   #server;
   #overlay;
+  #camera;
+  #view;
   #asked = 0; // counts requests; only the answer of the last one is shown
 
-  constructor(server, overlay) {
+  constructor({ server, overlay, camera, view }) {
     this.#server = server;
     this.#overlay = overlay;
+    this.#camera = camera;
+    this.#view = view;
     byId('inspect-form').addEventListener('submit', (event) => {
       event.preventDefault();
       this.inspect(byId('inspect-x').valueAsNumber, byId('inspect-y').valueAsNumber);
@@ -63,6 +68,11 @@ export class InspectorPanel {
     byId('inspection').replaceChildren(...parts);
   }
 
+  #draw(path) {
+    this.#overlay.showPath(
+      path && drawablePixels(path, this.#camera.pose, this.#view.pictureSize));
+  }
+
   #pathList(paths) {
     const buttons = paths.map((path) => {
       const button = element('button', { type: 'button', 'aria-pressed': 'false' },
@@ -74,13 +84,15 @@ export class InspectorPanel {
             formatShare(path.share_error)}` })));
       button.addEventListener('click', () => {
         const drawn = button.getAttribute('aria-pressed') === 'true';
-        for (const one of buttons) one.setAttribute('aria-pressed', String(one === button && !drawn));
-        this.#overlay.showPath(drawn ? null : path.pixels);
+        for (const one of buttons) {
+          one.setAttribute('aria-pressed', String(one === button && !drawn));
+        }
+        this.#draw(drawn ? null : path);
       });
       return button;
     });
     buttons[0].setAttribute('aria-pressed', 'true');
-    this.#overlay.showPath(paths[0].pixels);
+    this.#draw(paths[0]);
     return element('ul', { class: 'paths' }, ...buttons.map((button) => element('li', {}, button)));
   }
 }
@@ -102,11 +114,11 @@ function shareTable(shares, whole, title) {
     const share = total > 0 ? light / total : 0;
     const fill = element('span', { class: 'bar-fill' });
     fill.style.width = `${100 * Math.min(1, Math.max(0, share))}%`;
-    const spread = error && total > 0 ? ` ± ${formatShare(luminance(threeOf(error)) / total)}` : '';
+    const spread = error && total > 0 ? `± ${formatShare(luminance(threeOf(error)) / total)}` : '';
     return element('tr', {}, element('th', { scope: 'row', text: name, title: name }),
       element('td', { class: 'track' }, element('span', { class: 'bar-track' }, fill)),
-      element('td', { class: 'amount', text: formatShare(share) + spread,
-        title: formatValue(light) }));
+      element('td', { class: 'amount', text: formatShare(share), title: formatValue(light) }),
+      element('td', { class: 'spread', text: spread }));
   });
   return element('table', { class: 'shares', 'aria-label': title }, ...rows);
 }

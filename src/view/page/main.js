@@ -41,7 +41,7 @@ function start() {
   const wanted = () => wantedLayers(mix, display);
   const feed = new PictureFeed(server, wanted, (frame) => stage.setFrame(frame));
   const overlay = new PathOverlay(view);
-  const inspector = new InspectorPanel(server, overlay);
+  const inspector = new InspectorPanel({ server, overlay, camera, view });
   const compare = new ComparePanel(server, () => stage.renderer, notify);
   const render = new RenderPanel(server, notify);
   const readout = new PixelReadout(server, stage, status);

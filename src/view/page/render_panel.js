@@ -14,7 +14,9 @@ export class RenderPanel {
   constructor(server, notify) {
     this.#server = server;
     this.#notify = notify;
-    byId('pause').addEventListener('click', () => this.togglePause());
+    for (const id of ['pause', 'pause-icon']) {
+      byId(id).addEventListener('click', () => this.togglePause());
+    }
     byId('restart').addEventListener('click', () => this.restart());
     byId('crop-clear').addEventListener('click', () => this.#send({ crop: kWhole }));
     byId('settings-form').addEventListener('input', () => this.#showApply());
@@ -27,8 +29,12 @@ export class RenderPanel {
   setState(state) {
     this.#state = state;
     const renders = state.kind === 'scene';
-    byId('pause').textContent = state.status === 'paused' ? 'Resume' : 'Pause';
-    byId('pause').disabled = !renders || !['rendering', 'paused'].includes(state.status);
+    const paused = state.status === 'paused';
+    byId('pause').textContent = paused ? 'Resume' : 'Pause';
+    byId('pause-icon').setAttribute('aria-pressed', String(paused));
+    for (const id of ['pause', 'pause-icon']) {
+      byId(id).disabled = !renders || !['rendering', 'paused'].includes(state.status);
+    }
     byId('restart').disabled = !renders;
     byId('settings-form').hidden = !renders;
     this.#showFigures(state.progress ?? {});

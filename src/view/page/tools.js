@@ -69,10 +69,11 @@ export class Tools {
   }
 
   #click([x, y]) {
-    const { view, inspector, camera } = this.#parts;
+    const { view, inspector, camera, readout } = this.#parts;
     const [width, height] = view.pictureSize;
     if (x < 0 || y < 0 || x >= width || y >= height) return;
     if (this.#input.tool !== 'focus') {
+      readout.show([x, y]);
       inspector.inspect(Math.floor(x), Math.floor(y));
       return;
     }
