@@ -121,19 +121,19 @@ def trace(camera, x, y):
 
 
 class Film:
-    """Layers of a picture as lists of rows of floats: {name: (channels, values)}."""
+    """Layers of a picture: {name: values, row by row}. Noise is a factor for each pixel."""
 
-    def __init__(self, pose, full_size, size, window, is_current):
-        full_camera = Camera(pose, *size)
+    def __init__(self, pose, size, window, is_current):
+        camera = Camera(pose, *size)
         names = ["picture", *ROUTES, *LIGHTS, "albedo", "N"]
-        self.size, self.full_size, self.window = size, full_size, window
+        self.size, self.window = size, window
         self.values = {name: [] for name in names} | {"Z": []}
         self.complete = False
         for y in range(window[1], window[3]):
             if not is_current():
                 return
             for x in range(window[0], window[2]):
-                self._add(*trace(full_camera, x, y)[:4])
+                self._add(*trace(camera, x, y)[:4])
         self.noise = [1.0] * len(self.values["Z"])
         self.complete = True
 

@@ -20,6 +20,7 @@ const kTolerance = 2 ** -10;
 const kSquare = [[0.21, 0.33], [0.5, 0.5], [0.62, 0.81], [0.85, 0.4], [0.4, 0.93]];
 
 let mock = null;
+let mockAddress = '';
 let browser;
 let page;
 
@@ -53,7 +54,8 @@ async function expectSum(weights) {
   for (const [u, v] of kSquare) {
     const x = Math.floor(u * (x1 - x0));
     const y = Math.floor(v * (y1 - y0));
-    const shown = await page.evaluate((px, py) => window.nephroid.readPixel(px, py), x + x0, y + y0);
+    const shown = await page.evaluate((px, py) => window.nephroid.readPixel(px, py),
+      x + x0, y + y0);
     for (let channel = 0; channel < 3; ++channel) {
       const expected = Object.entries(weights).reduce((sum, [name, weight]) =>
         sum + [weight].flat().at(channel % [weight].flat().length) *
@@ -78,14 +80,26 @@ const openPanel = (id) => page.evaluate((name) => {
 
 const isPaused = () => page.waitFor(() => window.nephroid.state.status !== 'rendering');
 
+/// Starts the mock server and returns its address.
+async function startMock(...options) {
+  mock = spawn('python3', [join(kHere, 'mock_server.py'), ...options],
+    { stdio: ['ignore', 'pipe', 'inherit'] });
+  return new Promise((resolve) => {
+    mock.stdout.once('data', (bytes) => resolve(bytes.toString().trim()));
+  });
+}
+
+async function stopMock() {
+  const ended = new Promise((resolve) => { mock.on('exit', resolve); });
+  mock.kill();
+  await ended;
+}
+
 before(async () => {
   if (kScreenshots) mkdirSync(kScreenshots, { recursive: true });
   let address = kAddress;
   if (!address) {
-    mock = spawn('python3', [join(kHere, 'mock_server.py')], { stdio: ['ignore', 'pipe', 'inherit'] });
-    address = await new Promise((resolve) => {
-      mock.stdout.once('data', (bytes) => resolve(bytes.toString().trim()));
-    });
+    address = mockAddress = await startMock('0');
   }
   browser = new Chromium();
   page = await browser.open(1280, 800);
@@ -213,7 +227,9 @@ test('a click explains a pixel', async () => {
   assert.ok(rows.length >= 2);
   const sum = rows[0].reduce((a, b) => a + b, 0);
   assert.ok(Math.abs(sum - 100) < 1, `the routes sum to ${sum} %`);
-  assert.ok(await page.evaluate(() => document.querySelector('#overlay .path').getTotalLength() > 5));
+  const length = await page.evaluate(() =>
+    document.querySelector('#overlay .path').getTotalLength());
+  assert.ok(length > 5, `a line of ${length} pixels`);
   await page.waitFor(() => /\d/.test(document.querySelector('#readout').textContent));
   await shot('inspector');
 });
@@ -240,7 +256,7 @@ test('a snapshot is compared by slider, blink, difference and heat map', async (
   await page.click('#mix-reset');
 });
 
-test('a drag orbits: coarse pictures on the way, one request at a time, undone by Ctrl+Z', async (t) => {
+test('a drag orbits with one request at a time, and Ctrl+Z goes back', async (t) => {
   const { camera, generation, width } = await state();
   if (!camera?.can_move) return t.skip('the camera cannot move');
   await page.evaluate(() => {
@@ -336,14 +352,17 @@ test('at 360 pixels nothing is cut off', async () => {
   await sleep(500);
   await shot('narrow');
   await page.click('#sheet-handle');
-  for (const id of ['display', 'layers', 'inspector', 'camera', 'compare', 'render', 'save', 'report']) {
-    await openPanel(`${id}-panel`);
+  const panels = await page.evaluate(() =>
+    [...document.querySelectorAll('.panel')].map((one) => one.id));
+  for (const id of panels) {
+    await openPanel(id);
     await sleep(150);
     await shot(`narrow-${id}`);
-    const wide = await page.evaluate(() => [...document.querySelectorAll('body *')].filter((one) => {
-      const box = one.getBoundingClientRect();
-      return box.width > 1 && !one.closest('#overlay, .unseen') && (box.right > 360.5 || box.left < -0.5);
-    }).map((one) => one.id || one.className || one.tagName));
+    const wide = await page.evaluate(() =>
+      [...document.querySelectorAll('body *:not(#overlay *, .unseen)')].filter((one) => {
+        const box = one.getBoundingClientRect();
+        return box.width > 1 && (box.right > 360.5 || box.left < -0.5);
+      }).map((one) => one.id || one.className || one.tagName));
     assert.deepEqual(wide, [], `in the panel ${id}`);
     assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth));
   }
@@ -356,7 +375,19 @@ test('nothing was complained of', () => {
 
 test('a lost connection is told and found again', async (t) => {
   if (!mock) return t.skip('only with the mock server');
-  mock.kill();
+  const { port, searchParams } = new URL(mockAddress);
+  await stopMock();
   await page.waitFor(() => /No connection/.test(document.querySelector('#notice').textContent));
   await shot('lost');
+  await startMock(port, searchParams.get('token'));
+  await page.waitFor(() => document.querySelector('#notice').hidden);
+  await page.waitFor(() => window.nephroid.frame?.generation === window.nephroid.state.generation);
+});
+
+test('a program started again wants its new address', async (t) => {
+  if (!mock) return t.skip('only with the mock server');
+  await stopMock();
+  await startMock(new URL(mockAddress).port, 'another');
+  await page.waitFor(() => /started again/.test(document.querySelector('#notice').textContent));
+  await shot('refused');
 });

@@ -43,6 +43,12 @@ export class CameraControls extends EventTarget {
     this.#changed();
   }
 
+  /// Takes over the next state whatever it counts: the program may be another one.
+  forget() {
+    this.#known = '';
+    this.#sender.generation = 0;
+  }
+
   orbit(dx, dy) {
     this.#move((pose) =>
       math.orbit(pose, -dx * kRadiansPerPixel, dy * kRadiansPerPixel, this.#mirrored));

@@ -150,7 +150,7 @@ export class ComparePanel extends EventTarget {
 
   #show() {
     const chosen = this.#with !== '';
-    pressOne(this.#buttons, 'compare', this.#mode);
+    pressOne(this.#buttons, 'compare', chosen ? this.#mode : '');
     for (const button of this.#buttons) button.disabled = !chosen;
     byId('compare-remove').disabled = !chosen;
     byId('split').hidden = !chosen || this.#mode !== 'split';

@@ -64,7 +64,8 @@ export class DisplayPanel {
     if (grid.length === 0) return;
     const display = this.#display;
     if (display.content === 'number') {
-      const range = rangeOf(grid);
+      const [low, high] = rangeOf(grid);
+      const range = display.view === 'Z' ? [low, high] : [high, low]; // near is white
       if (String(range) !== String(display.range)) {
         display.range = range;
         display.set({});

@@ -34,17 +34,14 @@ export function countValues(grid, exposure, balance) {
     broken: broken / pixels };
 }
 
-/// Smallest and largest finite value above 0 of a layer with one channel.
+/// Smallest and largest value above 0 of a layer with one channel, without the outermost percent.
 export function rangeOf(grid) {
-  let low = Infinity;
-  let high = -Infinity;
-  for (let at = 0; at < grid.length; at += 4) {
-    const value = grid[at];
-    if (!Number.isFinite(value) || value <= 0) continue;
-    low = Math.min(low, value);
-    high = Math.max(high, value);
-  }
-  return low < high ? [low, high] : [0, Math.max(high, 1)];
+  const values = grid.filter((value, at) => at % 4 === 0 && Number.isFinite(value) && value > 0)
+    .sort();
+  if (values.length === 0) return [0, 1];
+  const low = values[Math.floor(0.01 * values.length)];
+  const high = values[Math.floor(0.99 * values.length)];
+  return low < high ? [low, high] : [0, high];
 }
 
 /// One line on what clips.

@@ -81,6 +81,7 @@ function start() {
     status.setLasting('No connection to the program. Trying again.'));
   server.addEventListener('found', () => {
     status.setLasting('');
+    camera.forget();
     feed.reset();
   });
   server.addEventListener('refused', () => status.setLasting(

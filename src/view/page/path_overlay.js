@@ -2,7 +2,7 @@
 
 import { byId, shape } from './dom.js';
 
-const kFar = 1e5; // pixels; points farther away are drawn in their direction
+const kFar = 4000; // CSS pixels; browsers draw longer lines badly
 
 export class PathOverlay {
   #view;
@@ -50,14 +50,14 @@ export class PathOverlay {
   }
 
   #pathShapes() {
-    const points = this.#path.map((point) => point && this.#view.toWindow(
-      limited(point[0]), limited(point[1])));
-    const seen = points.filter(Boolean);
-    const line = runs(points).map((run) => 'M' + run.map((p) => p.join(' ')).join('L')).join('');
+    const points = this.#path.map((point) => point && this.#view.toWindow(...point));
+    const seen = points.filter((point) => point && Math.hypot(...point) < kFar);
+    const line = segments(points).map(([a, b]) => `M${a.join(' ')}L${b.join(' ')}`).join('');
     return [
       shape('path', { class: 'path-shadow', d: line }), shape('path', { class: 'path', d: line }),
-      ...seen.map(([cx, cy], index) => shape('circle', {
-        class: index === seen.length - 1 ? 'vertex last' : 'vertex', cx, cy, r: 3.5 }))];
+      ...seen.map((point) => shape('circle', {
+        class: point === points.at(-1) ? 'vertex last' : 'vertex',
+        cx: point[0], cy: point[1], r: 3.5 }))];
   }
 
   #pixelShapes() {
@@ -70,16 +70,20 @@ export class PathOverlay {
   }
 }
 
-function limited(value) {
-  return Math.min(kFar, Math.max(-kFar, value));
+// Lines between neighbours, those to far points shortened in their direction.
+function segments(points) {
+  const found = [];
+  for (let index = 1; index < points.length; ++index) {
+    const [a, b] = [points[index - 1], points[index]];
+    if (!a || !b) continue;
+    if (Math.hypot(...a) < kFar) found.push([a, shortened(a, b)]);
+    else if (Math.hypot(...b) < kFar) found.push([shortened(b, a), b]);
+  }
+  return found;
 }
 
-// Stretches of points without a gap.
-function runs(points) {
-  const found = [[]];
-  for (const point of points) {
-    if (point) found.at(-1).push(point);
-    else if (found.at(-1).length > 0) found.push([]);
-  }
-  return found.filter((run) => run.length > 1);
+function shortened([x, y], [farX, farY]) {
+  const length = Math.hypot(farX - x, farY - y);
+  const part = Math.min(1, kFar / length);
+  return length > 0 ? [x + part * (farX - x), y + part * (farY - y)] : [farX, farY];
 }

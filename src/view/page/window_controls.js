@@ -15,10 +15,9 @@ export function setUpWindow(view) {
   });
   byId('toggle-panels').addEventListener('click', togglePanels);
   byId('sheet-handle').addEventListener('click', togglePanels);
-  if (matchMedia(kNarrow).matches) {
-    for (const panel of document.querySelectorAll('.panel')) {
-      panel.open = panel.id === 'layers-panel';
-    }
+  if (matchMedia(kNarrow).matches) closePanels(byId('layers-panel'));
+  for (const panel of document.querySelectorAll('.panel')) {
+    panel.addEventListener('toggle', () => showInSheet(panel));
   }
   return { togglePanels };
 }
@@ -30,6 +29,19 @@ function togglePanels() {
   } else {
     const hidden = document.body.classList.toggle('no-panels');
     byId('toggle-panels').setAttribute('aria-expanded', String(!hidden));
+  }
+}
+
+// The sheet has room for one panel, at its top.
+function showInSheet(panel) {
+  if (!panel.open || !matchMedia(kNarrow).matches) return;
+  closePanels(panel);
+  panel.scrollIntoView({ block: 'start' });
+}
+
+function closePanels(except) {
+  for (const panel of document.querySelectorAll('.panel')) {
+    if (panel !== except) panel.open = false;
   }
 }
 
