@@ -101,6 +101,11 @@ export class Page {
     }
   }
 
+  /// Runs a function in each page that is opened from now on, before the page's own scripts.
+  async runFirst(call) {
+    await this.send('Page.addScriptToEvaluateOnNewDocument', { source: `(${call})()` });
+  }
+
   async goto(url) {
     await this.send('Page.navigate', { url });
   }

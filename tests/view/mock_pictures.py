@@ -1,5 +1,5 @@
-# What the mock server sends of a film: frames, heat maps as PNG, and the paths of a pixel. It must not
-# know of HTTP.
+# What the mock server sends of a film: frames, heat maps as PNG, and the paths of a pixel. It must
+# not know of HTTP.
 import json
 import struct
 import zlib

@@ -6,7 +6,7 @@ LIGHTS = {"key": ((0.6, 0.7, -0.4), (3.0, 2.7, 2.2)), "rim": ((-0.8, 0.35, 0.5),
           "sky": (None, (0.25, 0.3, 0.4))}
 ROUTES = ("caustic", "rest")
 BALL, RADIUS = (0.0, 1.0, 0.0), 1.0
-START = {"eye": [3.2, 2.4, -4.6], "target": [0.0, 0.8, 0.0], "up": [0.0, 1.0, 0.0], "fov": 34.0,
+START = {"eye": [-3.2, 2.4, -4.6], "target": [0.0, 0.8, 0.0], "up": [0.0, 1.0, 0.0], "fov": 34.0,
          "lens_radius": 0.0, "focal_distance": 5.8, "shutter": [0.0, 1.0]}
 
 
@@ -28,13 +28,14 @@ def normalize(a):
 
 
 class Camera:
-    """A pose as LookAt of pbrt reads it: left-handed, fov along the shorter side."""
+    """A pose as LookAt of pbrt reads it: left-handed, fov along the shorter side; mirrored by
+    Scale -1 1 1 in camera space, as most scenes are."""
 
     def __init__(self, pose, width, height):
         self.eye = tuple(pose["eye"])
         self.forward = normalize(subtract(pose["target"], self.eye))
-        self.right = normalize(cross(pose["up"], self.forward))
-        self.up = cross(self.forward, self.right)
+        self.right = normalize(cross(self.forward, pose["up"]))
+        self.up = cross(self.right, self.forward)
         self.half = math.tan(math.radians(pose["fov"]) / 2)
         self.width, self.height, self.short = width, height, min(width, height)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-# Speaks the protocol of the live view with synthetic pictures, so that the page can be developed and
-# tested without the renderer: tests/view/mock_server.py [PORT [TOKEN]]. Prints the address to open.
+# Speaks the protocol of the live view with synthetic pictures, so that the page can be developed
+# and tested without the renderer: tests/view/mock_server.py [PORT [TOKEN]]. Prints the address.
 import copy
 import json
 import math
@@ -34,8 +34,8 @@ class Render:
         self.passes, self.started = 0, time.time()
         self.pose = copy.deepcopy(mock_scene.START)
         self.settings = {"integrator": "mixed", "integrators": ["mixed", "path", "photon"],
-                         "routes": "", "presets": ["split", "caustics"], "layers": "both", "seed": 0,
-                         "time": None, "noise": None, "resolution": [320, 240],
+                         "routes": "", "presets": ["split", "caustics"], "layers": "both",
+                         "seed": 0, "time": None, "noise": None, "resolution": [320, 240],
                          "crop": [0, 1, 0, 1]}
         self.film = self.tile_versions = None
         self.preview = False
@@ -135,7 +135,7 @@ class Render:
             "layers": [{"name": n, "kind": k, "channels": c} for n, k, c in layers
                        if k not in shown],
             "mix": {"exact": True, "why": ""},
-            "camera": {**self.pose, "type": "perspective", "can_move": True},
+            "camera": {**self.pose, "type": "perspective", "can_move": True, "mirrored": True},
             "comparisons": [{"id": i, "name": c.name} for i, c in self.comparisons.items()],
             "save_directory": None}
 

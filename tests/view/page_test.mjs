@@ -292,6 +292,28 @@ test('a drag orbits with one request at a time, and Ctrl+Z goes back', async (t)
     (value, axis) => Math.abs(value - eye[axis]) < 1e-4), [camera.eye]);
 });
 
+test('a pan moves the scene with the pointer', async (t) => {
+  const { camera, width, height } = await state();
+  if (!camera?.can_move) return t.skip('the camera cannot move');
+  const pick = (x, y) => page.evaluate(async (body) => (await (await fetch('api/pick', {
+    method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body),
+  })).json()).point, { x, y });
+  const [column, row] = [Math.floor(width / 2), Math.floor(0.6 * height)];
+  const middle = await pick(column, row);
+  const right = await pick(column + Math.ceil(width / 100), row);
+  if (!middle || !right) return t.skip('the middle of the picture is empty');
+  const [x, y] = await page.middle('#stage');
+  await page.drag([x, y], [x + 60, y], 'right');
+  await page.waitFor((old) => String(window.nephroid.state.camera.eye) !== String(old) &&
+    !window.nephroid.state.preview, [camera.eye]);
+  await sleep(500);
+  const now = await pick(column, row);
+  const along = now.reduce((sum, value, axis) =>
+    sum + (value - middle[axis]) * (right[axis] - middle[axis]), 0);
+  assert.ok(along < 0, 'what was to the left is in the middle now');
+  await page.press('z', 'KeyZ', 2);
+});
+
 test('the wheel dollies, arrow keys orbit, focus is clicked', async (t) => {
   const { camera } = await state();
   if (!camera?.can_move) return t.skip('the camera cannot move');
@@ -347,6 +369,30 @@ test('every control has a name', async () => {
   assert.deepEqual(unnamed, []);
 });
 
+test('text has contrast enough for AA', async () => {
+  const low = await page.evaluate(() => {
+    const numbers = (color) => color.match(/[\d.]+/g).map(Number);
+    const light = (color) => {
+      const [r, g, b] = numbers(color).map((value) => {
+        const part = value / 255;
+        return part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4;
+      });
+      return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const groundOf = (one) => {
+      const color = getComputedStyle(one).backgroundColor;
+      return numbers(color)[3] === 0 && one.parentElement ? groundOf(one.parentElement) : color;
+    };
+    const ratio = (a, b) => (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+    return [...document.querySelectorAll('body *:not(:disabled, option)')]
+      .filter((one) => [...one.childNodes].some((node) =>
+        node.nodeType === Node.TEXT_NODE && node.textContent.trim()))
+      .filter((one) => ratio(light(getComputedStyle(one).color), light(groundOf(one))) < 4.5)
+      .map((one) => one.outerHTML);
+  });
+  assert.deepEqual(low, []);
+});
+
 test('at 360 pixels nothing is cut off', async () => {
   await page.resize(360, 740);
   await sleep(500);
@@ -367,6 +413,29 @@ test('at 360 pixels nothing is cut off', async () => {
     assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth));
   }
   await page.resize(1280, 800);
+});
+
+test('the picture comes back after the graphics card was reset', async () => {
+  await page.evaluate(() => {
+    window.card = document.querySelector('#canvas').getContext('webgl2')
+      .getExtension('WEBGL_lose_context');
+    window.card.loseContext();
+  });
+  await page.waitFor(() => /was reset/.test(document.querySelector('#notice').textContent));
+  await page.evaluate(() => window.card.restoreContext());
+  await page.waitFor(() => window.nephroid.frame && document.querySelector('#notice').hidden);
+  await expectSum({ picture: 1 });
+});
+
+test('without WebGL 2 the page says so', async () => {
+  const other = await browser.open(800, 600);
+  await other.runFirst(() => {
+    HTMLCanvasElement.prototype.getContext = () => null;
+  });
+  await other.goto(new URL('/', await page.evaluate(() => location.href)).href);
+  await other.waitFor(() => /WebGL 2/.test(document.querySelector('#notice')?.textContent));
+  assert.deepEqual(other.problems, []);
+  await other.close();
 });
 
 test('nothing was complained of', () => {

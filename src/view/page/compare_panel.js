@@ -26,7 +26,11 @@ export class ComparePanel extends EventTarget {
     this.#notify = notify;
     byId('compare-with').addEventListener('change', (event) => this.choose(event.target.value));
     for (const button of this.#buttons) {
-      button.addEventListener('click', () => this.setMode(button.dataset.compare));
+      button.addEventListener('click', () => {
+        const again = button.dataset.compare === 'blink' && this.#mode === 'blink';
+        if (again) this.blink();
+        else this.setMode(button.dataset.compare);
+      });
     }
     byId('snapshot').addEventListener('click', () => this.snapshot());
     byId('compare-remove').addEventListener('click', () => this.#remove());
@@ -93,8 +97,8 @@ export class ComparePanel extends EventTarget {
   async snapshot() {
     await this.#try(async () => {
       const { id } = await this.#server.post('api/snapshot', {});
+      await this.#server.refresh();
       this.#notify(`Snapshot ${id} kept.`);
-      this.#addOption(id);
       if (this.#with === '') await this.choose(id);
     });
   }
@@ -105,7 +109,7 @@ export class ComparePanel extends EventTarget {
     if (!file) return;
     await this.#try(async () => {
       const { id } = await this.#server.upload(file);
-      this.#addOption(id, file.name);
+      await this.#server.refresh();
       await this.choose(id);
     });
   }
@@ -113,15 +117,10 @@ export class ComparePanel extends EventTarget {
   async #remove() {
     const id = this.#with;
     await this.choose('');
-    await this.#try(() => this.#server.remove('api/snapshot?id=' + encodeURIComponent(id)));
-  }
-
-  // The next state has it as well, but may come later.
-  #addOption(id, name = id) {
-    const select = byId('compare-with');
-    if ([...select.options].some((option) => option.value === id)) return;
-    select.add(new Option(name, id));
-    delete select.dataset.items;
+    await this.#try(async () => {
+      await this.#server.remove('api/snapshot?id=' + encodeURIComponent(id));
+      await this.#server.refresh();
+    });
   }
 
   async #measure(id) {
@@ -173,8 +172,9 @@ export class ComparePanel extends EventTarget {
     byId('tag-left').hidden = !['split', 'other'].includes(mode);
     byId('tag-left').textContent = name;
     byId('tag-right').hidden = this.#with === '' || mode === 'other';
+    const measure = this.#mode === 'flip' ? 'FLIP' : 'relMSE';
     byId('tag-right').textContent = { difference: `Difference to ${name}`,
-      heat: `${this.#mode === 'flip' ? 'FLIP' : 'relMSE'} against ${name}` }[mode] ?? 'This picture';
+      heat: `${measure} against ${name}` }[mode] ?? 'This picture';
   }
 
   #changed() {

@@ -6,13 +6,13 @@ import { whiteBalance } from './white_point.js';
 const kDefaults = { stops: 0, kelvin: 6500, tint: 0, curve: 'srgb', marks: false };
 const kContents = { albedo: 'reflectance', N: 'directions', normal: 'directions' };
 
-/// Event "change" whenever a value changes. What is viewed is the mix ("") or one layer's name.
+/// Event "change" whenever a value changes. What is viewed is the mix ("") or one feature's name.
 export class Display extends EventTarget {
   view = '';
   pictureExposure = 1; // of the PNG
-  range = [0, 1]; // of the numbers of a layer with one channel
+  range = [1, 0]; // numbers of a feature with one channel that are white and black
+  features = new Map(); // names of the layers that can be viewed, to their channels
   #values = { ...kDefaults };
-  #channels = 'RGB'; // of the viewed layer
 
   get stops() { return this.#values.stops; }
   get kelvin() { return this.#values.kelvin; }
@@ -31,27 +31,26 @@ export class Display extends EventTarget {
     this.set(kDefaults);
   }
 
-  setView(name, channels) {
+  setView(name) {
     this.view = name;
-    this.#channels = channels;
     this.#changed();
   }
 
-  /// What the numbers of the viewed layer are: light, reflectance, directions, number.
-  get content() {
-    if (this.view === '') return 'light';
-    if (this.#channels.length === 1) return 'number';
-    return kContents[this.view] ?? 'light';
+  /// What the numbers of a layer are: light, reflectance, directions, number.
+  contentOf(layer) {
+    if (!this.features.has(layer)) return 'light';
+    if (this.features.get(layer).length === 1) return 'number';
+    return kContents[layer] ?? 'light';
   }
 
   get balance() {
     return whiteBalance(this.kelvin, this.tint);
   }
 
-  /// All that the renderer wants to know.
-  look() {
-    const { exposure, balance, curve, content, range, marks } = this;
-    return { exposure, balance, curve, content, range, marks };
+  /// All that the renderer wants to know to show a picture with this layer.
+  look(layer) {
+    const { exposure, balance, curve, range, marks } = this;
+    return { exposure, balance, curve, range, marks, content: this.contentOf(layer) };
   }
 
   #changed() {

@@ -11,13 +11,13 @@ const kSliders = { exposure: 'stops', kelvin: 'kelvin', green: 'tint' };
 
 export class DisplayPanel {
   #display;
-  #readGrid; // (count) => values
+  #stage;
   #timer = 0;
-  #channels = new Map(); // of the layers that can be viewed
+  #counted = ''; // layer that was counted last
 
-  constructor(display, readGrid) {
+  constructor(display, stage) {
     this.#display = display;
-    this.#readGrid = readGrid;
+    this.#stage = stage;
     for (const [id, name] of Object.entries(kSliders)) {
       byId(id).addEventListener('input', (event) =>
         display.set({ [name]: Number(event.target.value) }));
@@ -29,7 +29,7 @@ export class DisplayPanel {
     byId('marks').addEventListener('change', (event) =>
       display.set({ marks: event.target.checked }));
     byId('view').addEventListener('change', (event) =>
-      display.setView(event.target.value, this.#channels.get(event.target.value) ?? 'RGB'));
+      display.setView(event.target.value));
     byId('display-reset').addEventListener('click', () => display.reset());
     display.addEventListener('change', () => this.#show());
     this.#makeLegend();
@@ -38,11 +38,11 @@ export class DisplayPanel {
 
   setState(state) {
     const views = state.layers.filter((layer) => ['feature', 'aov'].includes(layer.kind));
-    this.#channels = new Map(views.map((layer) => [layer.name, layer.channels ?? 'RGB']));
+    this.#display.features = new Map(views.map(({ name, channels }) => [name, channels]));
     setOptions(byId('view'), [['', 'Mix of layers'], ...views.map(({ name }) =>
       [name, kViewNames[name] ?? name])]);
-    if (this.#display.view !== '' && !this.#channels.has(this.#display.view)) {
-      this.#display.setView('', 'RGB');
+    if (this.#display.view !== '' && !this.#display.features.has(this.#display.view)) {
+      this.#display.setView('');
     }
     if (this.#display.pictureExposure !== state.exposure) {
       this.#display.pictureExposure = state.exposure ?? 1;
@@ -50,8 +50,9 @@ export class DisplayPanel {
     }
   }
 
-  /// The picture has changed; counts it again soon.
+  /// The picture has changed. Counts it again soon; at once if it shows something else.
   pictureChanged() {
+    if (this.#stage.shownLayer !== this.#counted) this.#count();
     if (this.#timer) return;
     this.#timer = setTimeout(() => {
       this.#timer = 0;
@@ -60,10 +61,12 @@ export class DisplayPanel {
   }
 
   #count() {
-    const grid = this.#readGrid(kHistogramPixels);
+    const grid = this.#stage.renderer.readGrid(kHistogramPixels);
     if (grid.length === 0) return;
     const display = this.#display;
-    if (display.content === 'number') {
+    this.#counted = this.#stage.shownLayer;
+    const content = display.contentOf(this.#counted);
+    if (content === 'number') {
       const [low, high] = rangeOf(grid);
       const range = display.view === 'Z' ? [low, high] : [high, low]; // near is white
       if (String(range) !== String(display.range)) {
@@ -72,7 +75,7 @@ export class DisplayPanel {
       }
     }
     if (!byId('display-panel').open) return;
-    const light = display.content === 'light';
+    const light = content === 'light';
     const counts = countValues(grid, light ? display.exposure : 1,
       light ? display.balance : [1, 0, 0, 0, 1, 0, 0, 0, 1]);
     drawHistogram(byId('histogram'), counts);
@@ -92,14 +95,15 @@ export class DisplayPanel {
     byId('curve').value = display.curve;
     byId('marks').checked = display.marks;
     byId('view').value = display.view;
-    const light = display.content === 'light';
+    const light = display.contentOf(display.view) === 'light';
     for (const id of [...Object.keys(kSliders), 'curve', 'marks']) byId(id).disabled = !light;
     this.#showLegend();
     this.pictureChanged();
   }
 
   #showLegend() {
-    const { content, curve, range } = this.#display;
+    const { curve, range, view } = this.#display;
+    const content = this.#display.contentOf(view);
     const isNumber = content === 'number';
     byId('legend').hidden = !isNumber && !(content === 'light' && curve === 'false');
     for (const swatch of byId('legend').querySelectorAll('.swatch')) swatch.hidden = isNumber;

@@ -1,7 +1,7 @@
 // The panel that explains a pixel: its shares by route, layer, light and technique, and its
 // brightest paths, each of which can be drawn over the picture.
 
-import { byId, element } from './dom.js';
+import { byId, element, setFigures } from './dom.js';
 import { formatColor, formatShare, formatValue, luminance } from './format.js';
 import { drawablePixels } from './path_projection.js';
 
@@ -65,6 +65,8 @@ export class InspectorPanel {
     if (answer.paths?.length > 0) {
       parts.push(element('h3', { text: 'Brightest paths' }), this.#pathList(answer.paths));
     }
+    const notes = answer.notes ?? [answer.note].filter(Boolean);
+    parts.push(...notes.map((text) => element('p', { class: 'fine', text })));
     byId('inspection').replaceChildren(...parts);
   }
 
@@ -98,31 +100,27 @@ export class InspectorPanel {
 }
 
 function valueFigures(answer) {
-  const error = answer.error ?? answer.standard_error;
-  const pairs = [['Value', formatColor(answer.value)],
-    ['Error', error && `± ${formatColor([error].flat())}`], ['Samples', answer.samples]];
-  return element('dl', { class: 'figures' }, ...pairs.filter(([, value]) => value !== undefined)
-    .flatMap(([name, value]) => [element('dt', { text: name }), element('dd', { text: value })]));
+  const list = element('dl', { class: 'figures' });
+  setFigures(list, [['Value', formatColor(answer.value)],
+    ['Error', `± ${formatColor(answer.error)}`], ['Samples', answer.samples]]);
+  return list;
 }
 
-// Names, amounts, and bars of their share of the pixel's luminance, the largest first.
+// Names, and bars of their share of the pixel's luminance, the largest first.
 function shareTable(shares, whole, title) {
   const total = luminance(whole);
-  const sorted = shares.map((share) => ({ ...share, light: luminance(share.value) }))
+  const sorted = shares.map((one) => ({ ...one, light: luminance(one.value) }))
     .sort((a, b) => b.light - a.light);
-  const rows = sorted.map(({ name, light, error }) => {
-    const share = total > 0 ? light / total : 0;
+  const rows = sorted.map((one) => {
+    const { name, light } = one;
+    const share = one.share ?? (total > 0 ? light / total : 0);
+    const error = one.share_error ?? (total > 0 ? one.error / total : NaN);
     const fill = element('span', { class: 'bar-fill' });
     fill.style.width = `${100 * Math.min(1, Math.max(0, share))}%`;
-    const spread = error && total > 0 ? `± ${formatShare(luminance(threeOf(error)) / total)}` : '';
     return element('tr', {}, element('th', { scope: 'row', text: name, title: name }),
       element('td', { class: 'track' }, element('span', { class: 'bar-track' }, fill)),
       element('td', { class: 'amount', text: formatShare(share), title: formatValue(light) }),
-      element('td', { class: 'spread', text: spread }));
+      element('td', { class: 'spread', text: error >= 0 ? `± ${formatShare(error)}` : '' }));
   });
   return element('table', { class: 'shares', 'aria-label': title }, ...rows);
-}
-
-function threeOf(value) {
-  return Array.isArray(value) ? value : [value, value, value];
 }

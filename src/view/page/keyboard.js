@@ -112,7 +112,7 @@ const control = (key, shift) => (event) => event.key.toLowerCase() === key &&
   (event.ctrlKey || event.metaKey) && event.shiftKey === shift;
 
 const kShortcuts = [
-  { keys: 'Ctrl+Z', text: 'Undo a move of the camera', action: 'undo', matches: control('z', false) },
+  { keys: 'Ctrl+Z', text: 'Undo a camera move', action: 'undo', matches: control('z', false) },
   { keys: 'Ctrl+Shift+Z', text: 'Redo it', action: 'redo', matches: control('z', true) },
   { keys: '0', text: 'Fit the picture', action: 'fit', matches: plain('0') },
   { keys: '1', text: 'Zoom to 100 %', action: 'actual', matches: plain('1') },

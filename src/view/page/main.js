@@ -16,6 +16,7 @@ import { PictureFeed } from './picture_feed.js';
 import { PixelReadout } from './pixel_readout.js';
 import { Server } from './protocol.js';
 import { RenderPanel } from './render_panel.js';
+import { setUpSaveLinks } from './save_links.js';
 import { Stage } from './stage.js';
 import { StatusBar } from './status_bar.js';
 import { offerTestInterface } from './test_interface.js';
@@ -38,7 +39,8 @@ function start() {
     status.setLasting(error.message, true);
     return;
   }
-  const wanted = () => wantedLayers(mix, display);
+  let state = null;
+  const wanted = () => wantedLayers(mix, display, state);
   const feed = new PictureFeed(server, wanted, (frame) => stage.setFrame(frame));
   const overlay = new PathOverlay(view);
   const inspector = new InspectorPanel({ server, overlay, camera, view });
@@ -46,7 +48,7 @@ function start() {
   const render = new RenderPanel(server, notify);
   const readout = new PixelReadout(server, stage, status);
   const tools = new Tools({ server, view, camera, inspector, render, overlay, readout, notify });
-  const displayPanel = new DisplayPanel(display, (count) => stage.renderer.readGrid(count));
+  const displayPanel = new DisplayPanel(display, stage);
   const layersPanel = new LayersPanel(mix);
   const windowControls = setUpWindow(view);
   const keyboard = new Keyboard({ ...keyActions({ camera, compare, display, render, tools, view }),
@@ -67,13 +69,14 @@ function start() {
     compare.load();
   });
 
+  setUpSaveLinks(server, () => state?.save_directory, notify);
+
   const listeners = [status, camera, render, compare, displayPanel, layersPanel, cameraPanel, tools,
     feed];
-  let state = null;
   server.addEventListener('state', (event) => {
     if (state && state.generation !== event.detail.generation) inspector.clear();
     state = event.detail;
-    if (state.width > 0) view.setPicture(state.width, state.height);
+    view.setPicture(...fullSize(state));
     mix.setLayers(state.layers);
     for (const listener of listeners) listener.setState(state);
   });
@@ -90,10 +93,19 @@ function start() {
   server.connect();
 }
 
-// Only what is needed: the picture alone as long as the mix changes nothing.
-function wantedLayers(mix, display) {
+// Only what is needed: the picture alone as long as the mix changes nothing. Coarse pictures have
+// no layers to mix.
+function wantedLayers(mix, display, state) {
+  if (state?.preview) return ['picture'];
   if (display.view !== '') return [display.view];
   return mix.neutral ? ['picture'] : mix.names;
+}
+
+// Pixels of the full picture; a coarse one has fewer.
+function fullSize({ kind, settings, width, height }) {
+  const [fullWidth, fullHeight] = settings?.resolution ?? [0, 0];
+  const known = kind === 'scene' && fullWidth > 0 && fullHeight > 0;
+  return known ? [fullWidth, fullHeight] : [Math.max(1, width), Math.max(1, height)];
 }
 
 function keyActions({ camera, compare, display, render, tools, view }) {

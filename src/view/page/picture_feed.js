@@ -64,7 +64,7 @@ export class PictureFeed extends EventTarget {
     const generation = this.#shown?.generation ?? this.#state.generation;
     try {
       const frame = await this.#server.frame({ layers, generation, since });
-      if (!frame) return;
+      if (!frame || frame.header.layers.length === 0) return;
       this.#receive(frame);
       this.#shown = frame.header;
       this.#layers = layers;

@@ -57,6 +57,12 @@ export class Server extends EventTarget {
     return response.status === 204 ? null : decodeFrame(await response.arrayBuffer());
   }
 
+  /// Asks for the state without waiting for the next event.
+  async refresh() {
+    const detail = await this.get('api/state');
+    this.dispatchEvent(new CustomEvent('state', { detail }));
+  }
+
   async get(path) {
     return (await this.#request(path)).json();
   }

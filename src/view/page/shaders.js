@@ -108,7 +108,7 @@ vec3 look(sampler2D picture, vec4 region, vec2 place) {
   vec2 at = (place - region.xy) * density;
   vec2 width = density / zoom;
   if (width.x > 1.001) return boxMean(picture, at, width);
-  if (smoothed || density.x < 0.99) return bilinear(picture, at);
+  if (content < 2 && (smoothed || density.x < 0.99)) return bilinear(picture, at);
   return texel(picture, ivec2(floor(at)));
 }
 

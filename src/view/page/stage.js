@@ -56,6 +56,9 @@ export class Stage extends EventTarget {
     });
   }
 
+  /// Name of the first layer of the picture on the screen.
+  get shownLayer() { return this.renderer.header('current')?.layers[0].name; }
+
   /// Linear value that is shown at a pixel of the full picture, or null.
   readPixel(x, y) {
     this.#sum();
@@ -65,7 +68,7 @@ export class Stage extends EventTarget {
   #draw() {
     if (this.renderer.contextLost) return;
     this.#sum();
-    this.renderer.draw(this.#view, this.#display.look(), this.#compare());
+    this.renderer.draw(this.#view, this.#display.look(this.shownLayer), this.#compare());
     this.dispatchEvent(new Event('drawn'));
   }
 

@@ -2,7 +2,8 @@
 // "picture", "focus" and "crop". It must not know what the tools do; it calls handlers.
 
 const kClickPixels = 4;
-const kClickMs = 600;
+const kClickMs = 600; // a longer press is no click
+const kDoubleClickMs = 350; // the second click of two is none of its own
 const kWheelStep = 0.0015;
 
 /// Handlers: orbit, pan, look, movePicture (dx, dy); dolly, zoom (factor, x, y); hover, click,
@@ -16,6 +17,7 @@ export class StageInput {
   #pointers = new Map();
   #start = null;
   #moved = false;
+  #lastClick = -Infinity;
   #action = '';
 
   constructor(stage, handlers) {
@@ -108,8 +110,11 @@ export class StageInput {
       this.#handlers.crop(rectangle(this.#start.place, place), true);
       return;
     }
-    const short = performance.now() - this.#start.time < kClickMs;
-    if (!this.#moved && short && this.#start.button === 0) this.#handlers.click(...place);
+    if (this.#moved || this.#start.button !== 0) return;
+    const now = performance.now();
+    const single = now - this.#start.time < kClickMs && now - this.#lastClick > kDoubleClickMs;
+    this.#lastClick = now;
+    if (single) this.#handlers.click(...place);
   }
 
   #forget(event) {

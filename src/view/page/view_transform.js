@@ -1,4 +1,5 @@
-// Where the picture lies in the window: fit, zoom to pixels, pan. In device pixels, from the top left.
+// Where the picture lies in the window: fit, zoom to pixels, pan. In device pixels, from the top
+// left.
 
 const kMinZoom = 1 / 32;
 const kMaxZoom = 64;
@@ -89,7 +90,7 @@ export class ViewTransform extends EventTarget {
     this.#changed();
   }
 
-  // A part of the picture always stays in the window. At 100 % its pixels lie on those of the screen.
+  // A part of the picture always stays in the window, and its pixels lie on those of the screen.
   #keepInSight() {
     const margin = 40;
     const [width, height] = this.#viewport;
