@@ -1,0 +1,211 @@
+// The panel of comparisons: another picture beside, instead of or against the one that is shown.
+
+import { byId, pressOne, setFigures, setOptions } from './dom.js';
+import { formatValue } from './format.js';
+
+const kBlinkMs = 700;
+const kHeatMaps = ['relmse', 'flip'];
+const kKeyStep = 0.02;
+
+/// Event "change" when something else is to be drawn.
+export class ComparePanel extends EventTarget {
+  #server;
+  #renderer; // () => Renderer
+  #notify;
+  #with = ''; // id of the comparison
+  #mode = 'split';
+  #split = 0.5; // of the width of the stage
+  #blinkTimer = 0;
+  #blinked = false;
+  #buttons = document.querySelectorAll('[data-compare]');
+
+  constructor(server, renderer, notify) {
+    super();
+    this.#server = server;
+    this.#renderer = renderer;
+    this.#notify = notify;
+    byId('compare-with').addEventListener('change', (event) => this.choose(event.target.value));
+    for (const button of this.#buttons) {
+      button.addEventListener('click', () => {
+        const again = button.dataset.compare === 'blink' && this.#mode === 'blink';
+        if (again) this.blink();
+        else this.setMode(button.dataset.compare);
+      });
+    }
+    byId('snapshot').addEventListener('click', () => this.snapshot());
+    byId('compare-remove').addEventListener('click', () => this.#remove());
+    byId('compare-file').addEventListener('change', (event) => this.#upload(event.target));
+    this.#listenToSplit(byId('split'));
+    this.#show();
+  }
+
+  /// What the renderer is to draw: {mode, split}.
+  get drawn() {
+    if (this.#with === '') return { mode: 'none', split: 0 };
+    const mode = this.#mode === 'blink' ? (this.#blinked ? 'other' : 'none')
+      : kHeatMaps.includes(this.#mode) ? 'heat' : this.#mode;
+    return { mode, split: this.#split };
+  }
+
+  setState(state) {
+    const items = state.comparisons.map(({ id, name }) => [id, name]);
+    setOptions(byId('compare-with'), [['', 'Nothing'], ...items]);
+    if (this.#with !== '' && !items.some(([id]) => id === this.#with)) this.choose('');
+  }
+
+  /// Compares with that picture, or with none for ''.
+  async choose(id) {
+    this.#with = id;
+    byId('compare-with').value = id;
+    this.#renderer().clear('other');
+    this.#renderer().setHeat(null);
+    this.#show();
+    if (id !== '') await this.load();
+  }
+
+  /// Gets the other picture, its figures and its heat map; again after the picture changed.
+  async load() {
+    const id = this.#with;
+    if (id === '') return;
+    await this.#try(async () => {
+      const frame = await this.#server.frame({ comparison: id });
+      if (!frame || id !== this.#with) return;
+      this.#renderer().setFrame('other', frame);
+      this.#renderer().sum('other', () => [1, 1, 1]);
+      this.#changed();
+      await this.#measure(id);
+    });
+  }
+
+  async setMode(mode) {
+    this.#mode = mode;
+    this.#show();
+    if (kHeatMaps.includes(mode) && this.#with !== '') {
+      await this.#try(() => this.#measure(this.#with));
+    }
+  }
+
+  /// Shows the other picture, and this one the next time.
+  blink() {
+    if (this.#with === '') return;
+    if (this.#mode !== 'blink') this.setMode('blink');
+    clearInterval(this.#blinkTimer);
+    this.#blinked = !this.#blinked;
+    this.#changed();
+  }
+
+  async snapshot() {
+    await this.#try(async () => {
+      const { id } = await this.#server.post('api/snapshot', {});
+      await this.#server.refresh();
+      this.#notify(`Snapshot ${id} kept.`);
+      if (this.#with === '') await this.choose(id);
+    });
+  }
+
+  async #upload(input) {
+    const [file] = input.files;
+    input.value = '';
+    if (!file) return;
+    await this.#try(async () => {
+      const { id } = await this.#server.upload(file);
+      await this.#server.refresh();
+      await this.choose(id);
+    });
+  }
+
+  async #remove() {
+    const id = this.#with;
+    await this.choose('');
+    await this.#try(async () => {
+      await this.#server.remove('api/snapshot?id=' + encodeURIComponent(id));
+      await this.#server.refresh();
+    });
+  }
+
+  async #measure(id) {
+    const query = encodeURIComponent(id);
+    const measured = await this.#server.get(`api/compare?with=${query}`);
+    if (id !== this.#with) return;
+    setFigures(byId('compare-figures'),
+      [['relMSE', measured.relmse], ['FLIP', measured.flip]]
+        .filter(([, value]) => Number.isFinite(value))
+        .map(([name, value]) => [name, formatValue(value)]));
+    if (!kHeatMaps.includes(this.#mode)) return;
+    const path = measured.heat[this.#mode].replace(/^\//, '');
+    const bitmap = await createImageBitmap(await this.#server.blob(path));
+    if (id !== this.#with) return;
+    this.#renderer().setHeat(bitmap);
+    this.#changed();
+  }
+
+  async #try(action) {
+    try {
+      await action();
+    } catch (error) {
+      this.#notify(error.message);
+    }
+  }
+
+  #show() {
+    const chosen = this.#with !== '';
+    pressOne(this.#buttons, 'compare', chosen ? this.#mode : '');
+    for (const button of this.#buttons) button.disabled = !chosen;
+    byId('compare-remove').disabled = !chosen;
+    byId('split').hidden = !chosen || this.#mode !== 'split';
+    if (!chosen) setFigures(byId('compare-figures'), []);
+    this.#blinked = false;
+    clearInterval(this.#blinkTimer);
+    const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
+    if (chosen && this.#mode === 'blink' && !still) {
+      this.#blinkTimer = setInterval(() => {
+        this.#blinked = !this.#blinked;
+        this.#changed();
+      }, kBlinkMs);
+    }
+    this.#changed();
+  }
+
+  #showTags() {
+    const name = byId('compare-with').selectedOptions[0]?.textContent ?? '';
+    const { mode } = this.drawn;
+    byId('tag-left').hidden = !['split', 'other'].includes(mode);
+    byId('tag-left').textContent = name;
+    byId('tag-right').hidden = this.#with === '' || mode === 'other';
+    const measure = this.#mode === 'flip' ? 'FLIP' : 'relMSE';
+    byId('tag-right').textContent = { difference: `Difference to ${name}`,
+      heat: `${measure} against ${name}` }[mode] ?? 'This picture';
+  }
+
+  #changed() {
+    this.#showTags();
+    this.dispatchEvent(new Event('change'));
+  }
+
+  #listenToSplit(handle) {
+    const stage = byId('stage');
+    handle.addEventListener('pointerdown', (event) => {
+      event.stopPropagation();
+      handle.setPointerCapture(event.pointerId);
+    });
+    handle.addEventListener('pointermove', (event) => {
+      if (!handle.hasPointerCapture(event.pointerId)) return;
+      const box = stage.getBoundingClientRect();
+      this.#moveSplit((event.clientX - box.left) / box.width);
+    });
+    handle.addEventListener('keydown', (event) => {
+      const step = { ArrowLeft: -kKeyStep, ArrowRight: kKeyStep, Home: -1, End: 1 }[event.key];
+      if (step === undefined) return;
+      event.preventDefault();
+      event.stopPropagation();
+      this.#moveSplit(this.#split + step);
+    });
+  }
+
+  #moveSplit(place) {
+    this.#split = Math.min(1, Math.max(0, place));
+    byId('split').style.left = `${100 * this.#split}%`;
+    byId('split').setAttribute('aria-valuenow', Math.round(100 * this.#split));
+    this.#changed();
+  }
+}

@@ -1,0 +1,50 @@
+// Short ways to find and make elements of the page.
+
+/// The element with that id.
+export function byId(id) {
+  return document.getElementById(id);
+}
+
+/// A new element. Attributes that are false or null are left out; "text" is its text.
+export function element(tag, attributes = {}, ...children) {
+  return fill(document.createElement(tag), attributes, children);
+}
+
+/// The same for a shape inside of an <svg>.
+export function shape(tag, attributes = {}) {
+  return fill(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, []);
+}
+
+/// Presses one button of a group and releases the others: pressOne(buttons, 'tool', 'crop').
+export function pressOne(buttons, key, value) {
+  for (const button of buttons) {
+    button.setAttribute('aria-pressed', String(button.dataset[key] === value));
+  }
+}
+
+/// Makes the options of a select anew if they changed; keeps what is chosen. Items: [value, text].
+export function setOptions(select, items) {
+  const key = JSON.stringify(items);
+  if (select.dataset.items === key) return;
+  select.dataset.items = key;
+  const chosen = select.value;
+  select.replaceChildren(...items.map(([value, text]) => element('option', { value, text })));
+  if (items.some(([value]) => value === chosen)) select.value = chosen;
+}
+
+/// Fills a <dl> with [name, value] pairs. Values without a value are left out.
+export function setFigures(list, pairs) {
+  const shown = pairs.filter(([, value]) => value !== null && value !== undefined && value !== '');
+  list.replaceChildren(...shown.flatMap(
+    ([name, value]) => [element('dt', { text: name }), element('dd', { text: value })]));
+}
+
+function fill(made, attributes, children) {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === false || value === null || value === undefined) continue;
+    if (name === 'text') made.textContent = value;
+    else made.setAttribute(name, value === true ? '' : value);
+  }
+  made.append(...children);
+  return made;
+}

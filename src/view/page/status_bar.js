@@ -1,0 +1,104 @@
+// The bar on top, the readout below, notices and the report: what the program says of itself.
+
+import { byId, element } from './dom.js';
+import { formatColor, formatCount, formatDuration, formatShare, luminance } from './format.js';
+
+const kStatus = {
+  loading: 'Loading', rendering: 'Rendering', paused: 'Paused', done: 'Done', failed: 'Failed' };
+const kNoticeMs = 4000;
+
+export class StatusBar {
+  #announced = '';
+  #timer = 0;
+  #lasting = ''; // notice that stays until it is cleared
+  #report = '';
+
+  setState(state) {
+    document.title = `${state.scene} – Nephroid`;
+    byId('scene-name').textContent = state.scene;
+    byId('scene-name').title = state.scene;
+    const text = statusText(state);
+    byId('status-text').textContent = text;
+    byId('status-text').title = text;
+    byId('status-text').classList.toggle('bad', state.status === 'failed');
+    byId('progress').value = state.progress?.fraction ?? 0;
+    const rays = state.progress?.rays_per_second;
+    byId('speed').textContent = state.status === 'rendering' && rays > 0
+      ? `${formatCount(rays)} rays a second` : '';
+    this.#announce(state.status === 'rendering' ? kStatus.rendering : text);
+    this.#showReport(state);
+  }
+
+  /// A short word to the user that goes by itself.
+  notify(text) {
+    this.#showNotice(text);
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#showNotice(this.#lasting), kNoticeMs);
+  }
+
+  /// A word that stays; '' takes it away.
+  setLasting(text, large = false) {
+    this.#lasting = text;
+    clearTimeout(this.#timer);
+    byId('notice').classList.toggle('large', large);
+    this.#showNotice(text);
+  }
+
+  /// The pixel below the pointer; null clears. Errors and samples come later than the value.
+  showPixel(pixel) {
+    if (!pixel) {
+      byId('readout').textContent = '';
+      return;
+    }
+    const parts = [`${pixel.x}, ${pixel.y}`];
+    if (pixel.value) parts.push(formatColor(pixel.value));
+    if (pixel.error && luminance(pixel.value) > 0) {
+      parts.push(`± ${formatShare(luminance(pixel.error) / luminance(pixel.value))}`);
+    }
+    if (pixel.samples > 0) parts.push(`${formatCount(pixel.samples)} samples`);
+    byId('readout').textContent = parts.join('   ');
+  }
+
+  #showNotice(text) {
+    byId('notice').textContent = text;
+    byId('notice').hidden = text === '';
+  }
+
+  // Screen readers hear of changes of the status, not of each pass.
+  #announce(text) {
+    if (text === this.#announced) return;
+    this.#announced = text;
+    byId('announcer').textContent = text;
+  }
+
+  #showReport({ warnings = [], notes = [], report = [] }) {
+    const key = JSON.stringify([warnings, notes, report]);
+    if (key === this.#report) return;
+    this.#report = key;
+    byId('warning-count').hidden = warnings.length === 0;
+    byId('warning-count').textContent = warnings.length === 1 ? '1 warning'
+      : `${warnings.length} warnings`;
+    const part = (title, lines, name) => (lines.length === 0 ? [] : [
+      element('h3', { text: title }),
+      ...lines.map((text) => element('p', { text, class: name }))]);
+    byId('report').replaceChildren(...part('Warnings', warnings, 'warning'),
+      ...part('Notes', notes), ...part('Choices of the program', report));
+    if (byId('report').childElementCount === 0) {
+      byId('report').append(element('p', { class: 'fine', text: 'Nothing to report yet.' }));
+    }
+  }
+}
+
+function statusText({ kind, status, message, progress = {} }) {
+  if (kind === 'picture') return message || 'Picture';
+  const parts = [kStatus[status] ?? status];
+  if (message) parts.push(message);
+  if (['rendering', 'paused', 'done'].includes(status) && progress.passes > 0) {
+    parts.push(`${progress.passes} ${progress.passes === 1 ? 'pass' : 'passes'}`);
+    parts.push(formatDuration(progress.seconds));
+    if (Number.isFinite(progress.seconds_left)) {
+      parts.push(`${formatDuration(progress.seconds_left)} left`);
+    }
+  }
+  return parts.join(' · ');
+}
