@@ -14,6 +14,7 @@
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "film/image_io.h"
+#include "film/state_file.h"
 #include "session/checkpoint/picture_description.h"
 #include "session/film_of_scene.h"
 #include "view/live_render.h"
@@ -66,13 +67,18 @@ void wait_for_end(LiveRender* live, const SignalFlags& signals) {
   }
 }
 
-/// Writes the picture with its state, so that `render --resume` or another view goes on.
+/// Writes the picture, and its state if `render --resume` or another view can go on from it: not
+/// with a camera that the scene's file does not have.
 void leave_checkpoint(LiveRender& live, const std::string& output) {
   try {
     live.at_rest([&](const RenderAtRest& rest) {
       if (rest.is_preview || !rest.render.film().can_be_shown()) return;
-      rest.render.save(output, true);
-      say(fmt::format("wrote {} and its state\n", output));
+      rest.render.save(output, rest.has_own_camera);
+      say(rest.has_own_camera
+              ? fmt::format("wrote {} and {}, with which --resume goes on\n", output,
+                            state_path_beside(output))
+              : fmt::format("wrote {}; its camera is not the scene's, so it cannot be resumed\n",
+                            output));
     });
   } catch (const UsageError&) {
     // Nothing was rendered.

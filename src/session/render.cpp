@@ -86,9 +86,9 @@ void refuse_unknown_names(const LoadedScene& loaded, const IntegratorChoice& cho
 }
 
 /// Reads the state of an earlier run into film and estimators.
-void resume(RenderOptions& options, const Scene& scene, EstimatorSet& set, Film& film,
-            const Warn& warn) {
-  options.begin_with = go_on_from(options.output, options.identity, scene, set, film);
+void resume(const std::string& from, RenderOptions& options, const Scene& scene, EstimatorSet& set,
+            Film& film, const Warn& warn) {
+  options.begin_with = go_on_from(from, options.identity, scene, set, film);
   warn_of(options.begin_with.warnings, warn);
   warn_of(warnings_of_passes_beyond(options), warn);
 }
@@ -149,15 +149,15 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
   identity_ = identity_of(request, loaded, choice_, plan_);
   identity_.set_film(*film_, options.seed);
   options.identity = identity_;
-  const std::string& output = options.output;
+  const std::string& saved = request.resume_from.empty() ? options.output : request.resume_from;
   if (request.resume &&
-      (std::filesystem::exists(output) || std::filesystem::exists(state_path_beside(output))))
-    resume(options, scene, set_, *film_, warnings_.output);
+      (std::filesystem::exists(saved) || std::filesystem::exists(state_path_beside(saved))))
+    resume(saved, options, scene, set_, *film_, warnings_.output);
   else if (request.resume)
     warn_of({fmt::format("--resume: there is no {} and no state of it, the render starts anew",
-                         output)},
+                         saved)},
             warnings_.output);
-  else if (const auto warning = warning_of_replacing(output, identity_))
+  else if (const auto warning = warning_of_replacing(options.output, identity_))
     warn_of({*warning}, warnings_.output);
 
   session_.emplace(scene, set_, *film_, std::move(options));

@@ -24,7 +24,8 @@ struct RenderRequest {
   bool reject_outliers = false;
   uint64_t memory = 0;           ///< limit in bytes, 0: the memory of the machine
   std::optional<uint64_t> seed;  ///< empty: the scene's
-  bool resume = false;           ///< continues the render saved in the output, if it is there
+  bool resume = false;           ///< continues the saved render, if it is there
+  std::string resume_from;       ///< picture of the saved render; empty: the output
   bool strict = false;           ///< names that the format does not have are errors
   /// Stop rules and output. Render sets seed, begin_with, identity and notes.
   RenderOptions options;

@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "film/atomic_file.h"
 #include "film/film_output.h"
+#include "image/mix.h"
 #include "input/file_bytes.h"
 #include "input/scene_reader.h"
 #include "session/camera_edit.h"
@@ -17,6 +18,7 @@
 #include "view/json_text.h"
 #include "view/live_render.h"
 #include "view/temporary_directory.h"
+#include "view/view_requests.h"
 
 namespace nephroid {
 namespace {
@@ -223,6 +225,9 @@ Answer Answers::save(const Parameters& parameters, const std::string&) {
   const TemporaryDirectory directory;
   const std::string exr = directory.file(stem + ".exr");
   source_.write(exr);
+  if (const std::string mix = text(parameters, "mix"); !mix.empty())
+    write_picture(exr, mixed(read_picture(exr), parse_mix(mix, mix_layers(read_picture_head(exr)))),
+                  source_.state().exposure);
   if (kind == "png") return deliver(png_path_beside(exr), stem + ".png", "image/png");
   return deliver(exr, stem + ".exr", "image/x-exr");
 }
@@ -235,12 +240,8 @@ Answer Answers::pick(const Parameters&, const std::string& body) {
   const PixelRequest pixel = parse_pixel_request(body);
   Json json{{"point", nullptr}, {"depth", nullptr}};
   live().at_rest([&](const RenderAtRest& rest) {
-    const FilmDescription& film = rest.loaded.scene->film;
-    const LiveState state = source_.state();
-    // The pixel is one of the full picture, whose preview is smaller.
-    const int x = pixel.x * film.width / std::max(1, state.settings.width);
-    const int y = pixel.y * film.height / std::max(1, state.settings.height);
-    if (const auto seen = seen_point(*rest.loaded.scene, x, y))
+    const Vec2i at = live().pixel_of_render(rest, pixel.x, pixel.y);
+    if (const auto seen = seen_point(*rest.loaded.scene, at.x, at.y))
       json = {{"point", json_of(seen->p)}, {"depth", seen->depth}};
   });
   return json_answer(json);

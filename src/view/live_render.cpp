@@ -36,6 +36,7 @@ std::chrono::duration<double> seconds(double value) {
 RenderRequest request_of(const RenderRequest& request) {
   RenderRequest result = request;
   RenderOptions& options = result.options;
+  result.resume_from = options.output;
   options.output.clear();
   if (!options.last_pass && !(options.time_limit > 0) && !(options.noise_target > 0))
     options.last_pass = kEndlessPasses;
@@ -160,15 +161,23 @@ std::optional<std::string> LiveRender::frame(const std::vector<std::string>& lay
   return frames_.frame(layers, generation, since);
 }
 
+Vec2i LiveRender::pixel_of_render(const RenderAtRest& rest, int x, int y) const {
+  const LiveSettings full = state().settings;
+  const FilmSettings& film = rest.render.film().settings();
+  return {static_cast<int>(int64_t{x} * film.width / std::max(1, full.width)),
+          static_cast<int>(int64_t{y} * film.height / std::max(1, full.height))};
+}
+
 ProbedPixel LiveRender::probe(int x, int y) {
   ProbedPixel probed;
   at_rest([&](const RenderAtRest& rest) {
     const Film& film = rest.render.film();
-    check_pixel(x, y, film.bounds());
-    probed.value = film.value(x, y);
-    probed.standard_error = film.standard_error(x, y);
+    const Vec2i pixel = pixel_of_render(rest, x, y);
+    check_pixel(pixel.x, pixel.y, film.bounds());
+    probed.value = film.value(pixel.x, pixel.y);
+    probed.standard_error = film.standard_error(pixel.x, pixel.y);
     for (int g = 0; g < film.layout().group_count(); ++g)
-      probed.samples = std::max(probed.samples, film.estimates(g, x, y));
+      probed.samples = std::max(probed.samples, film.estimates(g, pixel.x, pixel.y));
   });
   return probed;
 }
@@ -259,9 +268,11 @@ void LiveRender::render(const Edits& edits) {
     renew_camera(*loaded_->scene, loaded_->description, scene_overrides(request), diagnostics);
   }
 
+  request.resume = request.resume && !has_rendered_ && !edits.camera;
+  has_rendered_ = true;
   RenderWarnings warnings;
   std::vector<std::string> texts;
-  warnings.input = [&texts](const std::string& warning) { texts.push_back(warning); };
+  warnings.input = warnings.output = [&texts](const std::string& warning) { texts.push_back(warning); };
   Render render(request, *loaded_, warnings);
   publish([&](LiveState& state) {
     describe(render, *loaded_, edits.is_moving, &state);
@@ -272,7 +283,7 @@ void LiveRender::render(const Edits& edits) {
   });
   connect(render, edits);
   const RenderResult result = render.run(signals_);
-  const RenderAtRest rest{render, *loaded_, edits.is_moving};
+  const RenderAtRest rest{render, *loaded_, edits.is_moving, !edits.camera};
   if (result.reason != StopReason::kSignal) {
     renew_report(render);
     publish([&](LiveState& state) {
@@ -311,7 +322,7 @@ void LiveRender::connect(Render& render, const Edits& edits) {
       renew_report(render);
   });
   render.on_request([this, &render, &edits] {
-    const RenderAtRest rest{render, *loaded_, edits.is_moving};
+    const RenderAtRest rest{render, *loaded_, edits.is_moving, !edits.camera};
     serve(rest);
     rest_while_paused(rest);
   });

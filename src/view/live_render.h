@@ -25,12 +25,13 @@ struct RenderAtRest {
   Render& render;
   const LoadedScene& loaded;
   bool is_preview = false;
+  bool has_own_camera = true;  ///< the camera of the scene's file
 };
 
 class LiveRender final : public ViewSource {
  public:
-  /// Loads the scene of the request and renders it, until the end of its lifetime. The request has
-  /// no output file.
+  /// Loads the scene of the request and renders it, until the end of its lifetime. Its output is
+  /// not written, but resumed from if the request says so.
   explicit LiveRender(RenderRequest request);
   /// Stops within a fraction of a second.
   ~LiveRender() override;
@@ -61,6 +62,8 @@ class LiveRender final : public ViewSource {
   /// Passes on its exceptions. Throws UsageError if nothing can be rendered, or if it takes longer
   /// than a few seconds until the task begins.
   void at_rest(std::function<void(const RenderAtRest&)> task);
+  /// The pixel of a render, which may be a preview, at a pixel of the full picture.
+  Vec2i pixel_of_render(const RenderAtRest& rest, int x, int y) const;
 
  private:
   /// What the user has changed, read by the render's thread when it begins anew.
@@ -117,6 +120,7 @@ class LiveRender final : public ViewSource {
   std::optional<CameraDescription> own_camera_;  ///< of the scene's file
   double preview_edge_ = 0;     ///< pixels of the longer side while the camera moves
   double paused_seconds_ = 0;
+  bool has_rendered_ = false;  ///< false until the first render of the view
   std::thread thread_;
 };
 

@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "core/errors.h"
-#include "film/exr_file.h"
 #include "film/film_output.h"
 #include "image/mix.h"
 #include "session/checkpoint/render_identity.h"
@@ -126,11 +125,7 @@ Picture PictureSource::colors() {
 }
 
 void PictureSource::write(const std::string& exr_path) {
-  write_exr(exr_path, picture_);
-  std::vector<uint8_t> bytes;
-  const Picture colors = color_picture(picture_);
-  for (const float value : colors.pixels) bytes.push_back(encode_srgb8(value));
-  write_png(png_path_beside(exr_path), colors.width(), colors.height(), bytes);
+  write_picture(exr_path, picture_, state_.exposure);
 }
 
 }  // namespace nephroid

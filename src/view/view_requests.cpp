@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -113,6 +114,20 @@ class Members {
   Json json_;
 };
 
+/// A factor, or one each for red, green and blue, from 0.
+Rgb gain_of(const Json& json, const std::string& layer) {
+  const auto factor = [&](const Json& value) {
+    constexpr double kMaxGain = 1e6;
+    if (!value.is_number() || !(value.get<double>() >= 0 && value.get<double>() <= kMaxGain))
+      throw UsageError(fmt::format("mix: {}: expected numbers from 0 to {}", layer, kMaxGain));
+    return value.get<float>();
+  };
+  if (!json.is_array()) return {factor(json), factor(json), factor(json)};
+  if (json.size() != 3)
+    throw UsageError(fmt::format("mix: {}: expected one number or three", layer));
+  return {factor(json[0]), factor(json[1]), factor(json[2])};
+}
+
 RenderAction action_named(const std::string& name) {
   if (name == "pause") return RenderAction::kPause;
   if (name == "resume") return RenderAction::kResume;
@@ -188,6 +203,26 @@ PixelRequest parse_pixel_request(std::string_view body) {
   members.finish();
   if (!x || !y) throw UsageError("expected the pixel as x and y");
   return {*x, *y};
+}
+
+Mix parse_mix(std::string_view text, const MixLayers& layers) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) throw UsageError("mix: expected a JSON object with gains of layers");
+  Mix mix;
+  for (const auto& entry : json.items()) {
+    const std::string& layer = entry.key();
+    MixGain gain{layer, gain_of(entry.value(), layer)};
+    const auto light = std::ranges::find(layers.by_light, layer, &LayerByLight::layer);
+    if (light != layers.by_light.end()) {
+      gain.name = light->light;
+      mix.lights.push_back(std::move(gain));
+    } else if (std::ranges::find(layers.routes, layer) != layers.routes.end()) {
+      mix.routes.push_back(std::move(gain));
+    } else {
+      throw UsageError(fmt::format("mix: there is no layer '{}' that can be mixed", layer));
+    }
+  }
+  return mix;
 }
 
 const char* layer_choice_name(LayerChoice choice) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/math.h"
+#include "image/mix.h"
 #include "session/camera_edit.h"
 #include "session/light_layers.h"
 
@@ -50,6 +51,9 @@ struct PixelRequest {
 CameraChange parse_camera_change(std::string_view body);
 RenderChange parse_render_change(std::string_view body);
 PixelRequest parse_pixel_request(std::string_view body);
+/// Gains of layers: {"key":2,"caustic":[1,0.9,0.8]}. The names are those of layers that can be
+/// mixed.
+Mix parse_mix(std::string_view text, const MixLayers& layers);
 
 /// "routes", "lights" or "both".
 const char* layer_choice_name(LayerChoice choice);

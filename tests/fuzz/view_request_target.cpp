@@ -39,6 +39,14 @@ void view_request(const std::string& bytes) {
     if (pixel.x < 0 || pixel.y < 0) __builtin_trap();
   } catch (const UsageError&) {
   }
+  try {
+    MixLayers layers;
+    layers.routes = {"caustic"};
+    layers.by_light = {{"key", "", "key"}};
+    for (const MixGain& gain : parse_mix(bytes, layers).lights)
+      if (!(gain.gain.r >= 0) || !gain.gain.is_finite()) __builtin_trap();
+  } catch (const UsageError&) {
+  }
   static const Access access("127.0.0.1", 80);
   // Nobody guesses the cookie.
   if (access.accepts_cookie(bytes) || access.accepts_token(bytes)) __builtin_trap();

@@ -1,0 +1,210 @@
+// A render that follows its user: pictures, edits, pauses, questions at rest, changed files.
+#include "view/live_render.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "core/errors.h"
+#include "view/temporary_directory.h"
+
+namespace nephroid {
+namespace {
+
+constexpr const char* kScene = R"(
+LookAt 0 0 -4  0 0 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 32 "integer yresolution" 24
+WorldBegin
+LightSource "point" "string name" "key" "point3 from" [ 0 3 -3 ] "rgb I" [ 9 9 9 ]
+LightSource "point" "string name" "fill" "point3 from" [ 3 0 -3 ] "rgb I" [ 1 2 3 ]
+Shape "sphere"
+)";
+
+class Live : public testing::Test {
+ protected:
+  Live() { write(kScene); }
+
+  void write(const std::string& text) const { std::ofstream(path_) << text; }
+
+  RenderRequest request() const {
+    RenderRequest request;
+    request.scene = path_;
+    request.routes.integrator = "path";
+    return request;
+  }
+
+  /// Waits for at most ten seconds until the state is as wanted.
+  template <class Wanted>
+  static bool comes(const LiveRender& live, const Wanted& wanted) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (std::chrono::steady_clock::now() < end) {
+      if (wanted(live.state())) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return false;
+  }
+  static bool has_picture(const LiveRender& live) {
+    return comes(live, [](const LiveState& state) { return state.version > 0; });
+  }
+
+  TemporaryDirectory directory_;
+  std::string path_ = directory_.file("scene.pbrt");
+};
+
+TEST_F(Live, ShowsAPictureAndGoesOn) {
+  LiveRender live(request());
+  ASSERT_TRUE(has_picture(live));
+  EXPECT_TRUE(comes(live, [](const LiveState& state) { return state.progress.passes_done >= 20; }));
+  const LiveState state = live.state();
+  EXPECT_EQ(state.status, LiveStatus::kRendering);
+  EXPECT_EQ(state.width, 32);
+  EXPECT_EQ(state.settings.integrator, "path");
+  EXPECT_TRUE(live.frame({"picture"}, 0, 0).has_value());
+}
+
+TEST_F(Live, EndsByItsRules) {
+  RenderRequest short_one = request();
+  short_one.options.last_pass = 3;
+  LiveRender live(short_one);
+  EXPECT_TRUE(comes(live, [](const LiveState& s) { return s.status == LiveStatus::kDone; }));
+  EXPECT_EQ(live.state().progress.passes_done, 4u);
+  EXPECT_EQ(live.state().message, "all passes are done");
+}
+
+/// The picture after four passes of a view with this request is that of a plain render.
+TEST_F(Live, PicturesHaveTheBitsOfARender) {
+  RenderRequest short_one = request();
+  short_one.options.last_pass = 3;
+  const LoadedScene loaded = load_scene(short_one);
+  Render plain(short_one, loaded);
+  SignalFlags signals;
+  plain.run(signals);
+
+  LiveRender live(short_one);
+  ASSERT_TRUE(comes(live, [](const LiveState& s) { return s.status == LiveStatus::kDone; }));
+  const auto expect_equal = [&] {
+    live.at_rest([&](const RenderAtRest& rest) {
+      const Film& a = plain.film();
+      const Film& b = rest.render.film();
+      for (int y = 0; y < 24; ++y)
+        for (int x = 0; x < 32; ++x)
+          for (int c = 0; c < 3; ++c) ASSERT_EQ(a.value(x, y)[c], b.value(x, y)[c]);
+    });
+  };
+  expect_equal();
+  // There and back again.
+  CameraChange away, back;
+  const Vec3d eye = live.state().camera.eye;
+  away.eye = Vec3d(1, 1, -4);
+  away.is_moving = true;
+  back.eye = eye;
+  live.move_camera(away);
+  live.move_camera(back);
+  ASSERT_TRUE(comes(live, [](const LiveState& s) { return s.status == LiveStatus::kDone; }));
+  expect_equal();
+}
+
+TEST_F(Live, AMoveGivesPreviewsAndThenTheFullPicture) {
+  LiveRender live(request());
+  ASSERT_TRUE(has_picture(live));
+  CameraChange change;
+  change.eye = Vec3d(1, 0, -4);
+  change.is_moving = true;
+  const uint64_t moving = live.move_camera(change);
+  EXPECT_TRUE(comes(live, [](const LiveState& s) { return s.is_preview; }));
+  change.is_moving = false;
+  const uint64_t resting = live.move_camera(change);
+  EXPECT_GT(resting, moving);
+  EXPECT_TRUE(comes(live, [](const LiveState& s) {
+    return !s.is_preview && s.progress.passes_done > 0;
+  }));
+  EXPECT_EQ(live.state().camera.eye, Vec3d(1, 0, -4));
+}
+
+TEST_F(Live, APoseThatIsNoneChangesNothing) {
+  LiveRender live(request());
+  ASSERT_TRUE(has_picture(live));
+  CameraChange change;
+  change.target = live.state().camera.eye;
+  const uint64_t generation = live.state().generation;
+  EXPECT_THROW(live.move_camera(change), UsageError);
+  EXPECT_EQ(live.state().generation, generation);
+}
+
+TEST_F(Live, SettingsBeginAnew) {
+  LiveRender live(request());
+  ASSERT_TRUE(has_picture(live));
+  RenderChange change;
+  change.resolution = {16, 8};
+  change.layers = LayerChoice::kLights;
+  live.change(change);
+  EXPECT_TRUE(comes(live, [](const LiveState& s) { return s.width == 16 && s.version > 0; }));
+  std::vector<std::string> lights;
+  for (const LiveLayer& layer : live.state().layers)
+    if (layer.kind == LayerKind::kLight) lights.push_back(layer.name);
+  EXPECT_EQ(lights, (std::vector<std::string>{"key", "fill"}));
+  change.integrator = "nothing";
+  EXPECT_THROW(live.change(change), UsageError);
+}
+
+TEST_F(Live, APauseHoldsThePicture) {
+  LiveRender live(request());
+  ASSERT_TRUE(has_picture(live));
+  RenderChange pause, go_on;
+  pause.action = RenderAction::kPause;
+  go_on.action = RenderAction::kResume;
+  live.change(pause);
+  ASSERT_TRUE(comes(live, [](const LiveState& s) { return s.status == LiveStatus::kPaused; }));
+  const double seconds = live.state().progress.seconds;
+  const ProbedPixel before = live.probe(16, 12);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(live.probe(16, 12).samples, before.samples);
+  live.change(go_on);
+  ASSERT_TRUE(comes(live, [&](const LiveState& s) { return s.progress.seconds > seconds; }));
+  EXPECT_LT(live.state().progress.seconds, seconds + 0.29) << "the pause counts as time";
+}
+
+TEST_F(Live, AWrongSceneIsToldAndReadAgain) {
+  write("WorldBegin\nShape \"spere\"\n");
+  LiveRender live(request());
+  ASSERT_TRUE(comes(live, [](const LiveState& s) { return s.status == LiveStatus::kFailed; }));
+  EXPECT_NE(live.state().message.find("scene.pbrt:2:"), std::string::npos);
+  EXPECT_THROW(live.probe(0, 0), UsageError);
+  write(kScene);
+  live.reload();
+  EXPECT_TRUE(has_picture(live));
+  EXPECT_EQ(live.state().status, LiveStatus::kRendering);
+}
+
+TEST_F(Live, KnowsTheFilesOfItsScene) {
+  std::ofstream(directory_.file("ball.pbrt")) << "Shape \"sphere\"\n";
+  write(std::string(kScene) + "Include \"ball.pbrt\"\n");
+  LiveRender live(request());
+  ASSERT_TRUE(has_picture(live));
+  EXPECT_EQ(live.files(), (std::vector<std::string>{path_, directory_.file("ball.pbrt")}));
+}
+
+TEST_F(Live, WritesAPicture) {
+  LiveRender live(request());
+  ASSERT_TRUE(comes(live, [](const LiveState& s) { return s.progress.passes_done > 0; }));
+  const std::string exr = directory_.file("out.exr");
+  live.write(exr);
+  const Picture picture = read_picture(exr);
+  EXPECT_EQ(picture.width(), 32);
+  EXPECT_GE(picture.find_channel("diffuse.R"), 0);
+  EXPECT_TRUE(std::filesystem::exists(directory_.file("out.png")));
+}
+
+TEST_F(Live, ErrorsOfQuestionsReachWhoAsks) {
+  LiveRender live(request());
+  ASSERT_TRUE(has_picture(live));
+  EXPECT_THROW(live.at_rest([](const RenderAtRest&) { throw IoError("no"); }), IoError);
+  EXPECT_THROW(live.probe(32, 0), UsageError);
+}
+
+}  // namespace
+}  // namespace nephroid
