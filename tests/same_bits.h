@@ -27,6 +27,11 @@ inline void expect_same_bits(const Film& a, const Film& b, const std::string& wh
         for (int c = 0; c < 3; ++c)
           ASSERT_EQ(u[c], v[c]) << what << ": pixel " << x << ' ' << y << " route " << r;
       }
+      for (int aov = 0; aov < static_cast<int>(a.layout().aovs.size()); ++aov) {
+        const Rgb u = a.aov_value(aov, x, y), v = b.aov_value(aov, x, y);
+        for (int c = 0; c < 3; ++c)
+          ASSERT_EQ(u[c], v[c]) << what << ": pixel " << x << ' ' << y << " AOV " << aov;
+      }
     }
 }
 

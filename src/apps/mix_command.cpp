@@ -18,8 +18,7 @@ void check(const MixCommand& command) {
   if (command.output.empty())
     throw UsageError("mix: no --output given, expected a name that ends in .exr");
   if (command.mix.empty())
-    throw UsageError(
-        "mix: neither --light nor --route given, expected a gain as in --light key=2");
+    throw UsageError("mix: neither --light nor --route given, expected a gain as in --light key=2");
   std::error_code missing;
   if (std::filesystem::equivalent(command.picture, command.output, missing))
     throw UsageError("--output: '" + command.output +

@@ -29,18 +29,11 @@ double variance_of_mean(const FixedSum& sum, const FixedSum& square, uint64_t n)
 Film::Film(const FilmSettings& settings, FilmLayout layout)
     : format_(settings, std::move(layout)), slices_(bounds()) {
   const int groups = this->layout().group_count();
-  parts_of_route_.resize(this->layout().routes.size());
-  parts_of_aov_.resize(this->layout().aovs.size());
-  for (int g = 0; g < groups; ++g)
-    for (const int i : parts_of(g)) {
-      const FilmLayout::Part& part = this->layout().parts[i];
-      all_parts_.push_back(i);
-      parts_of_route_[part.route].push_back(i);
-      for (const int aov : part.aovs) parts_of_aov_[aov].push_back(i);
-    }
-
+  list_buffers();
   const size_t pixels = bounds().area();
-  for (size_t p = 0; p < this->layout().parts.size(); ++p) sums_.emplace_back(pixels);
+  for (size_t r = 0; r < this->layout().routes.size(); ++r) sums_.emplace_back(pixels);
+  for (const std::vector<size_t>& layers : layers_of_group_)
+    for (size_t i = 0; i < layers.size(); ++i) layers_.emplace_back(pixels);
   for (int g = 0; g < groups; ++g) squares_.emplace_back(pixels);
   estimates_.assign(groups + 1, 0);
   open_.assign(groups + 1, OpenPass{std::vector<uint32_t>(slices_.count(), 0)});
@@ -58,10 +51,32 @@ Film::Film(const FilmSettings& settings, FilmLayout layout)
   bad_.resize(this->layout().routes.size());
 }
 
+void Film::list_buffers() {
+  const FilmLayout& layout = this->layout();
+  routes_of_group_.resize(layout.group_count());
+  layers_of_group_.resize(layout.group_count());
+  layers_of_aov_.resize(layout.aovs.size());
+  layers_of_part_.resize(layout.parts.size());
+  for (size_t r = 0; r < layout.routes.size(); ++r) routes_of_group_[layout.groups[r]].push_back(r);
+  for (int g = 0; g < layout.group_count(); ++g)
+    for (const size_t route : routes_of_group_[g]) routes_.push_back({g, route});
+  const std::vector<FilmLayout::GroupLayer> layers = layout.layers_of_groups();
+  for (size_t i = 0; i < layers.size(); ++i) {
+    layers_of_group_[layers[i].group].push_back(i);
+    layers_of_aov_[layers[i].aov].push_back({layers[i].group, i});
+  }
+  for (size_t p = 0; p < layout.parts.size(); ++p)
+    for (const int aov : layout.parts[p].aovs) {
+      const FilmLayout::GroupLayer layer{layout.group_of(layout.parts[p]), aov};
+      layers_of_part_[p].push_back(std::ranges::lower_bound(layers, layer) - layers.begin());
+    }
+}
+
 size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
-  const size_t sums = layout.parts.size() + layout.group_count();
+  const size_t sums = layout.routes.size() + layout.group_count();
   const size_t merging = std::count(layout.merges.begin(), layout.merges.end(), true);
-  return sums * sizeof(RgbSum) + merging * sizeof(Bias) + sizeof(Features) +
+  return sums * sizeof(RgbSum) + layout.layers_of_groups().size() * LayerSums::kBytesPerPixel +
+         merging * sizeof(Bias) + sizeof(Features) +
          (gbuffer ? sizeof(SurfaceSums) + sizeof(uint64_t) : 0) + sizeof(uint64_t);  // depths
 }
 
@@ -69,8 +84,10 @@ bool Film::add_parts(int group, size_t pixel, std::span<const Rgb> values) {
   const std::vector<int>& parts = parts_of(group);
   bool fits = true;
   for (size_t i = 0; i < parts.size(); ++i) {
-    RgbSum& sum = sums_[parts[i]][pixel];
+    RgbSum& sum = sums_[route_of(parts[i])][pixel];
     for (int c = 0; c < 3; ++c) fits &= sum.rgb[c].add(values[i][c]);
+    for (const size_t layer : layers_of_part_[parts[i]])
+      fits &= layers_[layer].add(pixel, values[i]);
   }
   return fits;
 }
@@ -103,7 +120,8 @@ void Film::replace(int group, int x, int y, std::span<const Rgb> values) {
   assert(values.size() == parts_of(group).size());
   const size_t pixel = index(x, y);
   if (is_bad(group, x, y, values)) return;
-  for (const int part : parts_of(group)) sums_[part][pixel] = {};
+  for (const size_t route : routes_of_group_[group]) sums_[route][pixel] = {};
+  for (const size_t layer : layers_of_group_[group]) layers_[layer].clear(pixel);
   squares_[group][pixel] = {};
   bool fits = add_parts(group, pixel, values);
   fits &= add_square(group, pixel, values);
@@ -131,7 +149,10 @@ void Film::add_bias_of(int group, size_t pixel, float value) {
 void Film::release(int group, size_t pixel, std::span<const RgbSum> held) {
   const std::vector<int>& parts = parts_of(group);
   bool fits = true;
-  for (size_t i = 0; i < parts.size(); ++i) fits &= sums_[parts[i]][pixel].add(held[i]);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    fits &= sums_[route_of(parts[i])][pixel].add(held[i]);
+    for (const size_t layer : layers_of_part_[parts[i]]) fits &= layers_[layer].add(pixel, held[i]);
+  }
   if (!fits) count_saturated(1);
 }
 
@@ -168,7 +189,7 @@ uint64_t Film::estimates(int group) const {
   return estimates_[group];
 }
 void Film::count_bad(int group, size_t part, const Vec2i& pixel) {
-  const auto route = layout().parts[parts_of(group)[part]].route;
+  const auto route = route_of(parts_of(group)[part]);
   BadEstimates& bad = bad_[route];
   std::atomic_ref(bad.count).fetch_add(1, std::memory_order_relaxed);
   const PixelBounds& crop = bounds();
@@ -222,37 +243,43 @@ void Film::add_surface(int x, int y, const SurfaceSample& s) {
   ++surface_samples_[pixel];
 }
 
-/// [F1]: sums of parts with the same count of estimates are added exactly before the division.
-Rgb Film::mean_of_parts(const std::vector<int>& parts, size_t pixel) const {
+/// [F1]: sums with the same count of estimates are added exactly before the division.
+template <class SumOf>
+Rgb Film::mean_of(std::span<const Term> terms, size_t pixel, const SumOf& sum_of) const {
   double total[3] = {0, 0, 0};
-  for (size_t begin = 0, end = 0; begin < parts.size(); begin = end) {
-    const auto group_of = [&](size_t i) { return layout().group_of(layout().parts[parts[i]]); };
-    int group = group_of(begin);
+  for (size_t begin = 0, end = 0; begin < terms.size(); begin = end) {
+    int group = terms[begin].group;
     const size_t at = nearest_reached(group, pixel);
     const uint64_t count = count_of(group, at);
     const auto counts_likewise = [&](int other) {
       return other == group ||
              (count_of(other, at) == count && nearest_reached(other, pixel) == at);
     };
-    FixedSum sum[3];
-    for (end = begin; end < parts.size() && counts_likewise(group_of(end)); ++end) {
-      group = group_of(end);
-      for (int c = 0; c < 3; ++c) sum[c].add(sums_[parts[end]][at].rgb[c]);
+    RgbSum sum;
+    for (end = begin; end < terms.size() && counts_likewise(terms[end].group); ++end) {
+      group = terms[end].group;
+      sum.add(sum_of(terms[end].buffer, at));
     }
     if (count == 0) continue;
-    for (int c = 0; c < 3; ++c) total[c] += sum[c].value() / static_cast<double>(count);
+    for (int c = 0; c < 3; ++c) total[c] += sum.rgb[c].value() / static_cast<double>(count);
   }
   return to_rgb(total);
 }
 
+Rgb Film::mean_of_routes(std::span<const Term> terms, size_t pixel) const {
+  return mean_of(terms, pixel, [this](size_t r, size_t p) { return sums_[r][p]; });
+}
+
 Rgb Film::route_value(int route, int x, int y) const {
-  return mean_of_parts(parts_of_route_[route], index(x, y));
+  const Term term{layout().groups[route], static_cast<size_t>(route)};
+  return mean_of_routes({&term, 1}, index(x, y));
 }
 Rgb Film::aov_value(int aov, int x, int y) const {
-  return mean_of_parts(parts_of_aov_[aov], index(x, y));
+  return mean_of(layers_of_aov_[aov], index(x, y),
+                 [this](size_t layer, size_t p) { return layers_[layer].sum(p); });
 }
 Rgb Film::value(int x, int y) const {
-  return mean_of_parts(all_parts_, index(x, y));
+  return mean_of_routes(routes_, index(x, y));
 }
 
 Rgb Film::outliers(int x, int y) const {
@@ -273,7 +300,7 @@ std::array<double, 3> Film::error_squared(size_t group, size_t pixel) const {
   const RgbSum held = outliers_ ? outliers_->held(static_cast<int>(group), pixel) : RgbSum();
   for (size_t c = 0; c < 3; ++c) {
     FixedSum sum = held.rgb[c];
-    for (const int part : parts_of(static_cast<int>(group))) sum.add(sums_[part][pixel].rgb[c]);
+    for (const size_t route : routes_of_group_[group]) sum.add(sums_[route][pixel].rgb[c]);
     squared[c] = variance_of_mean(sum, squares_[group][pixel].rgb[c], count);
   }
   return squared;

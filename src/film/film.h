@@ -1,5 +1,5 @@
-// The accumulating film: exact sums per pixel, one buffer for each part of the light. Sums are
-// 128-bit fixed point, so any order, number of threads and split into runs gives the same bits
+// The accumulating film: exact sums per pixel, one buffer for each route and each AOV of a group.
+// Sums are fixed point, so any order, number of threads and split into runs gives the same bits
 // (docs/architecture.md, section 3). It must not know scenes or estimators.
 #pragma once
 
@@ -15,6 +15,7 @@
 #include "core/zeroed_array.h"
 #include "film/film_format.h"
 #include "film/fixed_sum.h"
+#include "film/layer_sums.h"
 #include "film/outlier_rejection.h"
 #include "film/pixel_slices.h"
 #include "film/render_state.h"
@@ -39,7 +40,8 @@ struct SurfaceSample {
 class Film {
  public:
   Film(const FilmSettings& settings, FilmLayout layout);
-  /// Memory for each pixel of the crop, with or without geometric layers.
+  /// Memory for each pixel of the crop, with or without geometric layers. Carries of AOVs, which
+  /// few pixels need (layer_sums.h), are not counted.
   static size_t bytes_per_pixel(const FilmLayout& layout, bool gbuffer);
 
   const FilmFormat& format() const { return format_; }
@@ -119,9 +121,9 @@ class Film {
   /// Adds a sample that hit something to the geometric layers, if the film has them.
   void add_surface(int x, int y, const SurfaceSample& sample);
 
-  /// Means of a route, of an AOV, and of all routes together, from the parts' sums and rounded
-  /// once. If a group has not reached the pixel in its first pass, the nearest pixel of a wider
-  /// lattice stands in.
+  /// Means of a route, of an AOV, and of all routes together, from exact sums and rounded once. An
+  /// AOV has estimates rounded to steps of 2^-44. If a group has not reached the pixel in its first
+  /// pass, the nearest pixel of a wider lattice stands in.
   Rgb route_value(int route, int x, int y) const;
   Rgb aov_value(int aov, int x, int y) const;
   Rgb value(int x, int y) const;
@@ -176,16 +178,28 @@ class Film {
   size_t index(int x, int y) const {
     return static_cast<size_t>(y - bounds().y0) * bounds().width() + (x - bounds().x0);
   }
-  /// Add a finite estimate to the parts of its group, and its square to the group. False if a sum
-  /// reached its limit.
+  /// Number of a part's route.
+  size_t route_of(int part) const { return static_cast<size_t>(layout().parts[part].route); }
+  /// Fills the lists of buffers.
+  void list_buffers();
+  /// A buffer, by its index in sums_ or layers_, and its group.
+  struct Term {
+    int group = 0;
+    size_t buffer = 0;
+  };
+  /// Add a finite estimate to the routes and AOVs of its group, and its square to the group. False
+  /// if a sum reached its limit.
   bool add_parts(int group, size_t pixel, std::span<const Rgb> values);
   bool add_square(int group, size_t pixel, std::span<const Rgb> values);
   void add_bias_of(int group, size_t pixel, float bias);
-  /// Adds held sums to the parts of a group.
+  /// Adds held sums of a group's parts to its routes and AOVs.
   void release(int group, size_t pixel, std::span<const RgbSum> parts);
   /// True if a value is not finite; counts the estimate then.
   bool is_bad(int group, int x, int y, std::span<const Rgb> values);
-  Rgb mean_of_parts(const std::vector<int>& parts, size_t pixel) const;
+  /// Mean of the terms' sums; sum_of(buffer, pixel) is one of them.
+  template <class SumOf>
+  Rgb mean_of(std::span<const Term> terms, size_t pixel, const SumOf& sum_of) const;
+  Rgb mean_of_routes(std::span<const Term> terms, size_t pixel) const;
   /// A group's estimates of a pixel. The features are one more group.
   uint64_t count_of(size_t group, size_t pixel) const {
     return estimates_[group] + (open_[group].slices > 0 ? count_of_slice(group, pixel) : 0);
@@ -201,10 +215,13 @@ class Film {
   std::array<double, 3> error_squared(size_t group, size_t pixel) const;
 
   FilmFormat format_;
-  // Lists of parts, ordered by group.
-  std::vector<std::vector<int>> parts_of_route_, parts_of_aov_;
-  std::vector<int> all_parts_;
-  std::vector<ZeroedArray<RgbSum>> sums_;     ///< [part][pixel]
+  // Lists of buffers, ordered by group.
+  std::vector<Term> routes_;                         ///< all routes
+  std::vector<std::vector<Term>> layers_of_aov_;     ///< [AOV]
+  std::vector<std::vector<size_t>> layers_of_part_;  ///< [part]: in layers_
+  std::vector<std::vector<size_t>> routes_of_group_, layers_of_group_;
+  std::vector<ZeroedArray<RgbSum>> sums_;     ///< [route][pixel]
+  std::vector<LayerSums> layers_;             ///< [layer of a group][pixel]
   std::vector<ZeroedArray<RgbSum>> squares_;  ///< [group][pixel]: squares of estimates' totals
   std::vector<uint64_t> estimates_;           ///< [group], features last
   /// Progress of one group in an unfinished pass.

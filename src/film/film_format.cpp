@@ -1,6 +1,7 @@
 #include "film/film_format.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace nephroid {
@@ -17,6 +18,13 @@ FilmLayout FilmLayout::of_routes(std::vector<std::string> names) {
 
 int FilmLayout::group_count() const {
   return groups.empty() ? 0 : *std::max_element(groups.begin(), groups.end()) + 1;
+}
+
+std::vector<FilmLayout::GroupLayer> FilmLayout::layers_of_groups() const {
+  std::set<GroupLayer> layers;
+  for (const Part& part : parts)
+    for (const int aov : part.aovs) layers.insert({group_of(part), aov});
+  return {layers.begin(), layers.end()};
 }
 
 FilmFormat::FilmFormat(const FilmSettings& settings, FilmLayout layout)

@@ -2,6 +2,7 @@
 // not know scenes or estimators.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -53,6 +54,12 @@ struct FilmLayout {
   static FilmLayout of_routes(std::vector<std::string> names);
   int group_count() const;
   int group_of(const Part& part) const { return groups[part.route]; }
+  /// The groups that have light in an AOV, ordered by group and AOV, each pair once.
+  struct GroupLayer {
+    int group = 0, aov = 0;
+    auto operator<=>(const GroupLayer&) const = default;
+  };
+  std::vector<GroupLayer> layers_of_groups() const;
   bool group_merges(int group) const {
     return static_cast<size_t>(group) < merges.size() && merges[group];
   }

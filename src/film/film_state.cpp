@@ -11,6 +11,8 @@ RenderState Film::state() {
   RenderState state;
   const auto numbered = [](const char* name, size_t i) { return name + std::to_string(i); };
   for (size_t i = 0; i < sums_.size(); ++i) state.add(numbered("film.sum.", i), sums_[i].items());
+  for (size_t i = 0; i < layers_.size(); ++i)
+    state.add(numbered("film.layer.", i), layers_[i].words());
   for (size_t g = 0; g < squares_.size(); ++g)
     state.add(numbered("film.square.", g), squares_[g].items());
   for (size_t g = 0; g < biases_.size(); ++g)
@@ -30,6 +32,11 @@ RenderState Film::state() {
     state.add(numbered("film.open.count.", g), std::span(&open_[g].slices, 1));
     state.add(numbered("film.open.estimates.", g), std::span(&open_[g].estimates, 1));
   }
+  for (size_t i = 0; i < layers_.size(); ++i)
+    state.streams.push_back(
+        {numbered("film.carries.", i), layers_[i].most_carry_words(),
+         [this, i] { return layers_[i].save_carries(); },
+         [this, i](std::span<const uint32_t> words) { layers_[i].load_carries(words); }});
   if (outliers_)
     state.streams.push_back({"film.outliers", outliers_->most_words(),
                              [this] { return outliers_->save(); },
@@ -40,11 +47,12 @@ RenderState Film::state() {
 void Film::add(const Film& other) {
   assert(!has_open_pass() && !other.has_open_pass());
   assert(!outliers_ && !other.outliers_ && other.sums_.size() == sums_.size() &&
-         other.depths_.size() == depths_.size());
+         other.layers_.size() == layers_.size() && other.depths_.size() == depths_.size());
   parallel_chunks(depths_.size(), 1 << 14, [&](int64_t, int64_t b, int64_t e) {
     for (int64_t i = b; i < e; ++i) {
       bool fits = true;
       for (size_t p = 0; p < sums_.size(); ++p) fits &= sums_[p][i].add(other.sums_[p][i]);
+      for (size_t l = 0; l < layers_.size(); ++l) fits &= layers_[l].add(i, other.layers_[l]);
       for (size_t g = 0; g < squares_.size(); ++g) fits &= squares_[g][i].add(other.squares_[g][i]);
       for (size_t g = 0; g < biases_.size(); ++g) {
         if (biases_[g].empty()) continue;

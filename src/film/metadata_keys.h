@@ -1,4 +1,5 @@
-// Keys of the metadata that the program writes into pictures and states. It must not know the values.
+// Keys of the metadata that the program writes into pictures and states. It must not know the
+// values.
 #pragma once
 
 #include <string_view>

@@ -238,8 +238,7 @@ MixLayers mix_layers(const PictureHead& picture) {
   for (std::string line; std::getline(routes, line);)
     if (const std::string name = line.substr(0, line.find(" = ")); has_layer(picture, name))
       layers.routes.push_back(name);
-  for (LayerByLight& layer :
-       parse_layers_by_light(value_of(picture.metadata, kLayersByLightKey)))
+  for (LayerByLight& layer : parse_layers_by_light(value_of(picture.metadata, kLayersByLightKey)))
     if (has_layer(picture, layer.layer))
       (layer.route.empty() ? layers.by_light : layers.by_route_and_light)
           .push_back(std::move(layer));

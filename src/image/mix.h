@@ -1,5 +1,5 @@
-// Mixes a picture anew from its layers: the light of lamps and routes times gains, without rendering.
-// It must not know command lines, scenes or how layers are made.
+// Mixes a picture anew from its layers: the light of lamps and routes times gains, without
+// rendering. It must not know command lines, scenes or how layers are made.
 #pragma once
 
 #include <string>

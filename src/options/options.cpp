@@ -77,10 +77,9 @@ void add_setting(CommandLine& line, const std::string& text) {
 }
 
 void set_layers(CommandLine& line, const std::string& text) {
-  constexpr std::pair<std::string_view, LayerChoice> kChoices[] = {
-      {"routes", LayerChoice::kRoutes},
-      {"lights", LayerChoice::kLights},
-      {"both", LayerChoice::kBoth}};
+  constexpr std::pair<std::string_view, LayerChoice> kChoices[] = {{"routes", LayerChoice::kRoutes},
+                                                                   {"lights", LayerChoice::kLights},
+                                                                   {"both", LayerChoice::kBoth}};
   for (const auto& [name, choice] : kChoices)
     if (text == name) {
       line.render.routes.layers = choice;

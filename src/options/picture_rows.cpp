@@ -21,8 +21,8 @@ void set_heat_map(CommandLine& line, const std::string& text) {
 const OptionDescription kPictureRows[] = {
     {"merge", "PICTURE", "", "", "", "", "",
      "Pictures of one render, of disjoint passes (render --passes A..B), or their states, which "
-     "must be beside them.", true,
-     [](CommandLine& l, const std::string& t) { l.merge.inputs.push_back(t); }},
+     "must be beside them.",
+     true, [](CommandLine& l, const std::string& t) { l.merge.inputs.push_back(t); }},
     {"merge", "--output", "-o", "OUT.exr", "", "", "",
      "Their sum, from which a render can go on; its state and a PNG are written beside it.", false,
      set_output<&CommandLine::merge>},
@@ -60,7 +60,8 @@ const OptionDescription kPictureRows[] = {
      [](CommandLine& l, const std::string&) { l.compare.subtract_reference_error = true; }},
     {"compare", "--exposure", "", "X", "", "1", "", "Exposure of both pictures for FLIP.", false,
      [](CommandLine& l, const std::string& t) {
-       l.compare.exposure = static_cast<float>(parse_number("--exposure", t, 0, kMaxExposure, true));
+       l.compare.exposure =
+           static_cast<float>(parse_number("--exposure", t, 0, kMaxExposure, true));
      }},
 };
 

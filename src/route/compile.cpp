@@ -160,7 +160,8 @@ RouteCompilation compile_routes(std::span<const RouteDefinition> routes,
   Routes compiled({routes.begin(), routes.end()}, {aovs.begin(), aovs.end()}, parts.parts,
                   std::move(labels), std::move(tables));
   return {symbols ? compiled.restricted_to(*symbols) : std::move(compiled),
-          std::move(proof.findings), std::move(proof.examples), std::move(proof.aov_matches)};
+          std::move(proof.findings), std::move(proof.examples), std::move(proof.aov_matches),
+          std::move(proof.part_matches)};
 }
 
 Routes checked_routes(RouteCompilation compilation, bool strict) {

@@ -32,8 +32,9 @@ struct RouteCompilation {
   Routes routes;
   std::vector<RouteFinding> findings;  ///< errors first, then overlaps
   std::vector<std::string>
-      examples;                   ///< [route]: its shortest path, "C D S L", or "" if it owns none
-  std::vector<bool> aov_matches;  ///< [AOV]: some path lies in it
+      examples;                    ///< [route]: its shortest path, "C D S L", or "" if it owns none
+  std::vector<bool> aov_matches;   ///< [AOV]: some path lies in it
+  std::vector<bool> part_matches;  ///< [part]: some path lies in it
 };
 
 /// Compiles and proves. With a scene's `symbols`, findings are about paths that the scene can have,

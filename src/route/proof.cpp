@@ -54,6 +54,7 @@ class Prover {
     for (const PartMeaning& part : in_.parts.parts)
       for (const int aov : part.aovs) aovs = std::max(aovs, static_cast<size_t>(aov) + 1);
     proof_.aov_matches.resize(aovs);
+    proof_.part_matches.resize(in_.parts.parts.size());
     find_unreachable();
     look_at_plain_words();
     look_at_merge_vertices();
@@ -176,6 +177,7 @@ class Prover {
           continue;
         }
         const int part = in_.parts.automaton.at(s.state, l);
+        proof_.part_matches[part] = true;
         for (const int aov : in_.parts.parts[part].aovs) proof_.aov_matches[aov] = true;
         std::string& example = proof_.examples[route];
         if (example.empty()) example = text(search.word(n), l);

@@ -25,6 +25,7 @@ struct Proof {
   std::vector<RouteFinding> findings;  ///< errors first
   std::vector<std::string> examples;   ///< [route]: a path of these symbols; empty if it owns none
   std::vector<bool> aov_matches;       ///< [AOV]: true if it matches a path of these symbols
+  std::vector<bool> part_matches;      ///< [part]: true if a path of these symbols lies in it
 };
 
 /// Throws UsageError if there are too many cases.

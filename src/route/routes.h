@@ -18,8 +18,8 @@ using EyeState = uint16_t;
 /// The reversed automaton's state after reading the light and the events from it towards the eye.
 using LightState = uint16_t;
 
-/// A part of the picture: the words with the same owner that lie in the same AOVs. Each part is a
-/// buffer of the film; a route is the sum of its parts, and so is an AOV.
+/// A part of the picture: the words with the same owner that lie in the same AOVs. A route is the
+/// sum of its parts, and so is an AOV.
 using Part = uint8_t;
 inline constexpr Part kNoPart = 255;
 

@@ -31,8 +31,8 @@ inline constexpr const char* kOtherLights = "other-lights";
 std::vector<AovDefinition> light_layers(const Scene& scene);
 
 /// Adds the layers of a choice to a plan. With kBoth a layer is called ROUTE_LIGHT, and those that
-/// no path of the scene can be in are left out. Throws UsageError if an AOV of the plan has the name
-/// of such a layer.
+/// no path of the scene can be in are left out. Throws UsageError if an AOV of the plan has the
+/// name of such a layer.
 void add_layers(LayerChoice choice, const Scene& scene, RoutePlan* plan);
 
 /// Those layers of a plan that add_layers() made.

@@ -17,6 +17,7 @@
 #include "session/checkpoint/film_metadata.h"
 #include "session/checkpoint/merge_pictures.h"
 #include "session/checkpoint/version.h"
+#include "session/light_layers.h"
 #include "unit/film/scratch_directory.h"
 
 namespace nephroid {
@@ -46,11 +47,18 @@ class StopAt final : public PassControl {
   int looks_;
 };
 
+/// A plan with a layer for each lamp, so that sums of layers are compared, too.
+RoutePlan plan_with_layers(const std::string& name, const Scene& scene) {
+  RoutePlan plan = plan_named(name);
+  add_layers(LayerChoice::kLights, scene, &plan);
+  return plan;
+}
+
 /// A run of the program: starts with a new film and new estimators.
 struct OneRun {
   OneRun(const Scene& of_scene, const std::string& plan, bool rejects)
       : scene(of_scene),
-        set(make_estimators(plan_named(plan), small_passes(), scene)),
+        set(make_estimators(plan_with_layers(plan, scene), small_passes(), scene)),
         film(film_for(scene, set)) {
     if (rejects)
       film.reject_outliers(

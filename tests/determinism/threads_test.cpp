@@ -6,6 +6,7 @@
 #include "estimators.h"
 #include "rendering.h"
 #include "same_bits.h"
+#include "session/light_layers.h"
 
 namespace nephroid {
 namespace {
@@ -34,10 +35,12 @@ TEST_P(Determinism, AnyNumberOfThreads) {
   const auto scene = scene_from_text(kScene);
   IntegratorOptions options;
   options.photons_per_pass = 20000;
+  RoutePlan plan = plan_named(GetParam());
+  add_layers(LayerChoice::kBoth, *scene, &plan);
   std::vector<Film> films;
   for (const int threads : {1, 2, 3, 7}) {
     const ThreadLimit limit(threads);
-    films.push_back(render(*scene, GetParam(), options, 5, 3));
+    films.push_back(render(*scene, plan, options, 5, 3));
   }
   expect_same_bits(films[0], films[1], "1 and 2 threads");
   expect_same_bits(films[0], films[2], "1 and 3 threads");

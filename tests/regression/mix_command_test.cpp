@@ -1,5 +1,5 @@
-// `render --layers` and `mix` with the real program: a mix is what a render with other lamps is, and
-// mistakes are named.
+// `render --layers` and `mix` with the real program: a mix is what a render with other lamps is,
+// and mistakes are named.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -14,7 +14,8 @@ namespace {
 std::string scene_with(const std::string& key, const std::string& film = "") {
   return "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8 " + film +
          "\nLookAt 0 0 -3  0 0 0  0 1 0\nCamera \"perspective\"\nWorldBegin\n"
-         "LightSource \"point\" \"rgb I\" [30 20 10] \"float scale\" " + key +
+         "LightSource \"point\" \"rgb I\" [300 200 100] \"float scale\" " +
+         key +
          " \"string name\" \"key\" \"point3 from\" [1 1 -3]\n"
          "LightSource \"infinite\" \"rgb L\" [0.1 0.2 0.3]\n" +
          kTriangle;
@@ -34,8 +35,7 @@ class MixCommandTest : public ::testing::Test {
   MixCommandTest() : folder_(scene_with("1")) {}
 
   void render(const std::string& output, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments{"--float", "--integrator", "path", "-o",
-                                       output};
+    std::vector<std::string> arguments{"--float", "--integrator", "path", "-o", output};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const ProgramRun run = folder_.render(arguments);
     EXPECT_EQ(run.status, 0) << run.errors;
@@ -104,7 +104,8 @@ TEST_F(MixCommandTest, WarnsOfClampedSamplesAndRejectedOutliers) {
 TEST_F(MixCommandTest, MergedPicturesKeepTheirLayers) {
   render("a.exr", {"--layers", "both", "--passes", "0..0"});
   render("b.exr", {"--layers", "both", "--passes", "1..1"});
-  const ProgramRun merged = run_program(folder_.path(""), {"merge", "a.exr", "b.exr", "-o", "c.exr"});
+  const ProgramRun merged =
+      run_program(folder_.path(""), {"merge", "a.exr", "b.exr", "-o", "c.exr"});
   EXPECT_EQ(merged.status, 0) << merged.errors;
   expect_said(mix({"c.exr", "--light", "key=3", "--route", "diffuse=0", "-o", "d.exr"}), 0, "");
   const Picture dark = read_picture(folder_.path("d.exr"));

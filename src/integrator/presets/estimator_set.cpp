@@ -23,11 +23,16 @@ void require_connecting_camera(const Scene& scene, EstimatorTable table) {
                   fmt::join(names, " and ")));
 }
 
-FilmLayout layout_of(const Routes& routes, EstimatorTable table) {
+/// `part_matches` as in RouteCompilation: AOVs of other parts need no memory.
+FilmLayout layout_of(const Routes& routes, const std::vector<bool>& part_matches,
+                     EstimatorTable table) {
   FilmLayout layout;
   for (const RouteDefinition& route : routes.definitions()) layout.routes.push_back(route.name);
   for (const AovDefinition& aov : routes.aovs()) layout.aovs.push_back(aov.name);
-  for (const PartMeaning& part : routes.parts()) layout.parts.push_back({part.route, part.aovs});
+  for (size_t p = 0; p < routes.parts().size(); ++p) {
+    const PartMeaning& part = routes.parts()[p];
+    layout.parts.push_back({part.route, part_matches[p] ? part.aovs : std::vector<int>()});
+  }
   layout.groups.resize(layout.routes.size());
   for (size_t g = 0; g < routes.groups().size(); ++g)
     for (const int route : routes.groups()[g].routes) layout.groups[route] = static_cast<int>(g);
@@ -80,9 +85,10 @@ EstimatorSet make_estimators(CompiledPlan compiled, const IntegratorOptions& opt
     if (examples[r].empty() && !route.estimator->merges)
       set.notes.push_back("'" + route.name + "' is black: no path in this scene can belong to it");
   }
+  const std::vector<bool> part_matches = compiled.compilation.part_matches;
   set.routes = std::make_shared<const Routes>(
       checked_routes(std::move(compiled.compilation), compiled.strict));
-  set.layout = layout_of(*set.routes, table);
+  set.layout = layout_of(*set.routes, part_matches, table);
   for (size_t g = 0; g < set.routes->groups().size(); ++g) {
     const EstimatorDescriptor& row = descriptor_of(set.routes->groups()[g], table);
     if (row.traits.connects) require_connecting_camera(scene, table);

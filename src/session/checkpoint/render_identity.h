@@ -1,5 +1,5 @@
-// The identity of a render in the metadata of its picture. It must not know the progress of a render
-// (checkpoint.h).
+// The identity of a render in the metadata of its picture. It must not know the progress of a
+// render (checkpoint.h).
 #pragma once
 
 #include <cstdint>

@@ -283,6 +283,30 @@ TEST(Film, ReplaceForgetsEveryPartOfItsGroupAlone) {
   film.add_estimates(1, 1);
   EXPECT_EQ(film.value(2, 1).g, 24.0f);
   EXPECT_EQ(film.route_value(2, 2, 1).g, 0.0f);
+  EXPECT_EQ(film.aov_value(0, 2, 1).g, 24.0f);
+  EXPECT_EQ(film.aov_value(1, 2, 1).g, 16.0f);
+}
+
+// A lamp in view is much brighter than what 64 bits of a layer hold.
+TEST(Film, AovsOfBrightLampsAreExact) {
+  Film film(small_film(), layout_with_aovs()), other(small_film(), layout_with_aovs());
+  const Rgb values[] = {{3e7f, 0.25f, 1}, {0, 0, 0}, {0, 0, 0}};
+  for (int i = 0; i < 100; ++i) film.add(0, 2, 1, values);
+  other.add(0, 2, 1, values);
+  film.add_estimates(0, 100);
+  other.add_estimates(0, 1);
+  other.add(film);
+  EXPECT_EQ(other.aov_value(0, 2, 1).r, 3e7f);
+  EXPECT_EQ(other.aov_value(0, 2, 1).g, 0.25f);
+  EXPECT_EQ(other.saturated_values(), 0u);
+  // A state has all of it.
+  Film loaded(small_film(), layout_with_aovs());
+  const RenderState from = other.state(), to = loaded.state();
+  ASSERT_EQ(from.arrays.size(), to.arrays.size());
+  for (size_t i = 0; i < from.arrays.size(); ++i)
+    std::ranges::copy(from.arrays[i].bytes, to.arrays[i].bytes.begin());
+  for (size_t i = 0; i < from.streams.size(); ++i) to.streams[i].load(from.streams[i].save());
+  EXPECT_EQ(loaded.aov_value(0, 2, 1).r, 3e7f);
 }
 
 TEST(Film, EmptyCropIsTheWholePicture) {

@@ -176,7 +176,7 @@ TEST(StateFile, SaysThatAnotherVersionWroteIt) {
   Memory saved(1), loaded(2);
   write_state(path, some_head(), saved.state());
   std::string bytes = bytes_of(path);
-  bytes[7] = 2;
+  ++bytes[7];
   std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
   EXPECT_NE(error_of_load(path, loaded).find("another version of this program"), std::string::npos);
 }

@@ -116,10 +116,9 @@ TEST(CommandLine, MergeTakesAnyNumberOfPictures) {
 
 TEST(CommandLine, Errors) {
   EXPECT_NE(usage_error("").find("no command"), std::string::npos);
-  EXPECT_EQ(
-      usage_error("paint s.pbrt"),
-      "unknown command 'paint', expected one of: render, merge, mix, info, routes, compare, "
-      "convert, bench");
+  EXPECT_EQ(usage_error("paint s.pbrt"),
+            "unknown command 'paint', expected one of: render, merge, mix, info, routes, compare, "
+            "convert, bench");
   EXPECT_NE(usage_error("render").find("SCENE"), std::string::npos);
   EXPECT_NE(usage_error("render a.pbrt b.pbrt").find("b.pbrt"), std::string::npos);
   EXPECT_EQ(usage_error("render s.pbrt --resumes"),
@@ -237,8 +236,8 @@ TEST(CommandLine, VersionIsThatOfTheBuild) {
 }
 
 TEST(CommandLine, MixHasGains) {
-  const CommandLine line = parse(
-      "mix a.exr --light key=2 --light rim=0.5,1,2 --route caustic=0 -o b.exr --float");
+  const CommandLine line =
+      parse("mix a.exr --light key=2 --light rim=0.5,1,2 --route caustic=0 -o b.exr --float");
   EXPECT_EQ(line.action, Action::kMix);
   ASSERT_EQ(line.mix.mix.lights.size(), 2u);
   EXPECT_EQ(line.mix.mix.lights[1].name, "rim");

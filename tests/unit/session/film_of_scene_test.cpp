@@ -59,7 +59,8 @@ TEST(FilmOfScene, MemoryIsThatOfThePartsGroupsAndSplats) {
   fill(film);
   EXPECT_NO_THROW(check_memory({description, one, path, kDefaults}, kMemory, false, false));
   FilmLayout two = one;
-  two.parts.push_back({0, {}});
+  two.routes.emplace_back("rest");
+  two.groups.push_back(0);
   EXPECT_THROW(check_memory({description, two, path, kDefaults}, kMemory, false, true), UsageError);
   description.gbuffer = GBufferSpace::kWorld;
   EXPECT_THROW(check_memory({description, one, path, kDefaults}, kMemory, false, false),
@@ -212,17 +213,33 @@ TEST(FilmOfScene, NoRouteTakesTheNameOfALayerOfPictures) {
 }
 
 TEST(FilmOfScene, TheFilmsMemoryIsCountedInFull) {
-  // 16 bytes per sum, three sums per part and per group, features (six of 8 bytes, and depth) and a
-  // counter.
+  // 16 bytes per sum, three sums per route and per group, features (six of 8 bytes, and depth) and
+  // a counter.
   FilmLayout layout = FilmLayout::of_routes({"a", "b"});
   const size_t two = Film::bytes_per_pixel(layout, false);
   EXPECT_GE(two, 4u * 48 + 6 * 8 + 16 + 8);
-  layout.parts.push_back({1, {}});
+  layout.routes.emplace_back("c");
+  layout.groups.push_back(1);
   EXPECT_EQ(Film::bytes_per_pixel(layout, false), two + 48);
-  layout.groups[1] = 0;
+  layout.groups = {0, 0, 0};
   EXPECT_EQ(Film::bytes_per_pixel(layout, false), two);
   EXPECT_GE(Film::bytes_per_pixel(layout, true), two + 13 * 16);
   EXPECT_EQ(SplatBuffer::bytes_per_pixel(3), 144u);
+}
+
+TEST(FilmOfScene, LayersByLightAreCheap) {
+  FilmLayout layout = FilmLayout::of_routes({"a", "b"});
+  layout.groups = {0, 0};
+  const size_t without = Film::bytes_per_pixel(layout, false);
+  layout.parts.clear();
+  for (int light = 0; light < 12; ++light) {
+    layout.aovs.push_back("light" + std::to_string(light));
+    for (const int route : {0, 1}) layout.parts.push_back({route, {light}});
+  }
+  EXPECT_EQ(Film::bytes_per_pixel(layout, false), without + 12 * 24);
+  // Groups count their estimates apart, so they need sums apart.
+  layout.groups = {0, 1};
+  EXPECT_EQ(Film::bytes_per_pixel(layout, false), without + 48 + 2 * 12 * 24);
 }
 
 }  // namespace

@@ -27,8 +27,9 @@ std::vector<AovDefinition> layers_of(const std::string& lamps) {
 }
 
 TEST(LightLayers, OneForEachLabelInTheScenesOrder) {
-  const std::vector<AovDefinition> layers = layers_of(
-      lamp("rim", 1) + lamp("key", 3) + lamp("rim", 2) + "LightSource \"infinite\" \"rgb L\" [1 1 1]\n");
+  const std::vector<AovDefinition> layers =
+      layers_of(lamp("rim", 1) + lamp("key", 3) + lamp("rim", 2) +
+                "LightSource \"infinite\" \"rgb L\" [1 1 1]\n");
   EXPECT_EQ(names_of(layers), (std::vector<std::string>{"rim", "key", "infinite1"}));
   EXPECT_EQ(layers[1].expression, "C.*<L.'key'>");
   EXPECT_EQ(layers[1].light, "key");
@@ -51,7 +52,8 @@ TEST(LightLayers, TheStrongestKeepTheirOwn) {
 
 TEST(LightLayers, NamesAreValidAndUnique) {
   const std::string lamps = lamp("Lamp.001", 1) + lamp("Lamp 001", 1) + lamp("Z", 1) +
-                            lamp("other-lights", 1) + lamp("bob's", 1) + lamp(std::string(99, 'x'), 1);
+                            lamp("other-lights", 1) + lamp("bob's", 1) +
+                            lamp(std::string(99, 'x'), 1);
   const std::vector<AovDefinition> layers = layers_of(lamps);
   EXPECT_EQ(names_of(layers),
             (std::vector<std::string>{"Lamp_001", "Lamp_001-2", "Z-light", "other-lights-2",
@@ -73,18 +75,29 @@ TEST(LightLayers, AnAovOfThatNameIsAnError) {
 }
 
 TEST(LightLayers, BothLeavesOutWhatNoPathCanBeIn) {
-  const auto scene = scene_from_text(
-      "WorldBegin\n" + lamp("key", 1) + lamp("rim", 1) + "Shape \"sphere\"\n");
-  RoutePlan plan = plan_of({"emission=C.*M:path", "first=C.*D<L.'key'>:path", "rest=.*:path"},
-                           {"mine=C.*L"});
+  const auto scene =
+      scene_from_text("WorldBegin\n" + lamp("key", 1) + lamp("rim", 1) + "Shape \"sphere\"\n");
+  RoutePlan plan =
+      plan_of({"emission=C.*M:path", "first=C.*D<L.'key'>:path", "rest=.*:path"}, {"mine=C.*L"});
   add_layers(LayerChoice::kBoth, *scene, &plan);
   EXPECT_EQ(names_of(plan.aovs),
             (std::vector<std::string>{"mine", "first_key", "rest_key", "rest_rim"}));
   EXPECT_EQ(layers_by_light(plan)[0], (LayerByLight{"first_key", "first", "key"}));
 }
 
-// Lights of every kind: a shape seen directly and in a mirror, a lamp at a point behind glass, a sky,
-// a distant light, and a fire in fog.
+TEST(LightLayers, NeedNoMemoryForPathsThatTheSceneHasNot) {
+  const auto scene =
+      scene_from_text("WorldBegin\n" + lamp("key", 1) + lamp("rim", 1) + "Shape \"sphere\"\n");
+  RoutePlan plan = plan_named("mixed");
+  add_layers(LayerChoice::kLights, *scene, &plan);
+  // Not in the group of `emission`, which has neither media nor hair to show.
+  const FilmLayout layout = make_estimators(plan, {}, *scene).layout;
+  EXPECT_EQ(layout.group_count(), 2);
+  EXPECT_EQ(layout.layers_of_groups().size(), 2u);
+}
+
+// Lights of every kind: a shape seen directly and in a mirror, a lamp at a point behind glass, a
+// sky, a distant light, and a fire in fog.
 const char* const kWorld = R"(
   LookAt 0 2 -5  0 0.6 0  0 1 0
   Camera "perspective" "float fov" 50

@@ -1,0 +1,143 @@
+// Compact sums: exact in any order, rounded to steps of 2^-44, with carries where they are needed.
+#include "film/layer_sums.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/errors.h"
+#include "core/parallel.h"
+#include "core/sampler.h"
+#include "film/film.h"
+
+namespace nephroid {
+namespace {
+
+constexpr double kStep = 0x1p-44;
+
+double red(const LayerSums& sums, size_t pixel) {
+  return sums.sum(pixel).rgb[0].value();
+}
+bool same(const LayerSums& a, const LayerSums& b, size_t pixel) {
+  for (int c = 0; c < 3; ++c)
+    if (a.sum(pixel).rgb[c].bits != b.sum(pixel).rgb[c].bits) return false;
+  return true;
+}
+
+/// Colours of both signs and of 60 magnitudes, up to 2^30.
+std::vector<Rgb> colors(size_t count) {
+  std::vector<Rgb> colors;
+  const auto number = [](uint64_t i) {
+    const uint64_t bits = mix_bits(i + 1);
+    return std::ldexp(static_cast<float>(bits >> 40) * 0x1p-24f - 0.4f,
+                      static_cast<int>(bits % 60) - 30);
+  };
+  for (size_t i = 0; i < 3 * count; i += 3)
+    colors.push_back({number(i), number(i + 1), number(i + 2)});
+  return colors;
+}
+
+TEST(LayerSums, AddsInSteps) {
+  LayerSums sums(2);
+  EXPECT_TRUE(sums.add(1, Rgb{1, 0.25f, -3}));
+  EXPECT_TRUE(sums.add(1, Rgb{static_cast<float>(kStep), 0, 0}));
+  EXPECT_EQ(red(sums, 1), 1 + kStep);
+  EXPECT_EQ(sums.sum(1).rgb[1].value(), 0.25);
+  EXPECT_EQ(sums.sum(1).rgb[2].value(), -3);
+  EXPECT_EQ(red(sums, 0), 0);
+  // Half a step counts as one, less as none; x and -x cancel.
+  for (const float value : {0.5f, 0.49f, -0.5f, -0.49f})
+    sums.add(0, Rgb{value * static_cast<float>(kStep), value, 0});
+  EXPECT_EQ(red(sums, 0), 0);
+  sums.add(0, Rgb{0.5f * static_cast<float>(kStep), 0, 0});
+  EXPECT_EQ(red(sums, 0), kStep);
+  sums.clear(1);
+  EXPECT_EQ(red(sums, 1), 0);
+}
+
+TEST(LayerSums, AnyOrderHasTheSameBits) {
+  std::vector<Rgb> values = colors(4000);
+  LayerSums forward(1), backward(1), halves(1), other_half(1);
+  for (const Rgb& value : values) forward.add(0, value);
+  std::reverse(values.begin(), values.end());
+  for (const Rgb& value : values) backward.add(0, value);
+  for (size_t i = 0; i < values.size(); ++i) (i % 2 == 0 ? halves : other_half).add(0, values[i]);
+  halves.add(0, other_half);
+  EXPECT_TRUE(same(forward, backward, 0));
+  EXPECT_TRUE(same(forward, halves, 0));
+  EXPECT_EQ(forward.save_carries(), backward.save_carries());
+  EXPECT_FALSE(forward.save_carries().empty());
+}
+
+TEST(LayerSums, IsTheSumOfTheFilmUpToSteps) {
+  const std::vector<Rgb> values = colors(1000);
+  LayerSums sums(1);
+  RgbSum exact;
+  for (const Rgb& value : values) {
+    sums.add(0, value);
+    for (int c = 0; c < 3; ++c) exact.rgb[c].add(double{value[c]});
+  }
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(sums.sum(0).rgb[c].value(), exact.rgb[c].value(),
+                500 * kStep + 1e-15 * std::abs(exact.rgb[c].value()));
+}
+
+TEST(LayerSums, CarriesAreThereWhereTheyAreNeeded) {
+  LayerSums sums(3);
+  for (int i = 0; i < 1000; ++i) sums.add(1, Rgb{-500, 500, 0.1f});
+  EXPECT_TRUE(sums.save_carries().empty());
+  // 64 bits hold 2^19.
+  for (int i = 0; i < 1000; ++i) sums.add(1, Rgb{-500, 500, 0});
+  EXPECT_EQ(red(sums, 1), -1e6);
+  EXPECT_EQ(sums.sum(1).rgb[1].value(), 1e6);
+  EXPECT_EQ(sums.save_carries().size(), 4u);
+  const LayerSums copy = sums;
+  EXPECT_TRUE(same(copy, sums, 1));
+  sums.add(1, Rgb{1e6f, 0, 0});
+  EXPECT_EQ(red(sums, 1), 0);
+  EXPECT_EQ(red(copy, 1), -1e6);
+}
+
+TEST(LayerSums, SaturatesAndSaysSo) {
+  LayerSums sums(1);
+  EXPECT_TRUE(sums.add(0, Rgb{0x1p49f, 0, 0}));
+  EXPECT_FALSE(sums.add(0, Rgb{0x1p50f, 1, 0}));
+  EXPECT_EQ(red(sums, 0), 0x1p50);
+  EXPECT_EQ(sums.sum(0).rgb[1].value(), 1);
+  EXPECT_FALSE(sums.add(0, Rgb{0, -1e30f, 0}));
+  EXPECT_EQ(sums.sum(0).rgb[1].value(), -0x1p50);
+  EXPECT_FALSE(sums.add(0, Rgb{0, 0, std::numeric_limits<float>::quiet_NaN()}));
+  EXPECT_EQ(sums.sum(0).rgb[2].value(), 0);
+}
+
+TEST(LayerSums, WordsAndCarriesAreAllThereIs) {
+  LayerSums sums(4), loaded(4);
+  for (size_t i = 0; i < 4; ++i)
+    for (const Rgb& value : colors(50 * i)) sums.add(i, value);
+  std::ranges::copy(sums.words(), loaded.words().begin());
+  loaded.load_carries(sums.save_carries());
+  for (size_t i = 0; i < 4; ++i) EXPECT_TRUE(same(sums, loaded, i)) << i;
+  EXPECT_LE(sums.save_carries().size(), sums.most_carry_words());
+  EXPECT_THROW(loaded.load_carries(std::vector<uint32_t>{4, 0, 0, 1}), IoError);
+  EXPECT_THROW(loaded.load_carries(std::vector<uint32_t>{1, 0, 0}), IoError);
+}
+
+TEST(LayerSums, ThreadsMayUseDifferentPixels) {
+  constexpr size_t kPixels = 1000;
+  LayerSums sums(kPixels);
+  const std::vector<Rgb> values = colors(kPixels);
+  parallel_chunks(kPixels, 10, [&](int64_t, int64_t begin, int64_t end) {
+    for (auto i = static_cast<size_t>(begin); i < static_cast<size_t>(end); ++i)
+      for (int k = 0; k < 100; ++k) sums.add(i, values[i]);
+  });
+  for (size_t i = 0; i < kPixels; ++i) {
+    LayerSums one(1);
+    for (int k = 0; k < 100; ++k) one.add(0, values[i]);
+    EXPECT_EQ(sums.sum(i).rgb[1].bits, one.sum(0).rgb[1].bits) << i;
+  }
+}
+
+}  // namespace
+}  // namespace nephroid
