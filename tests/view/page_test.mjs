@@ -353,6 +353,24 @@ test('a drawn rectangle is rendered alone', async (t) => {
   }, [], 30000);
 });
 
+test('settings are applied, and only those that were changed', async (t) => {
+  const { kind, generation } = await state();
+  if (kind !== 'scene') return t.skip('nothing renders');
+  assert.ok(await page.evaluate(() => document.querySelector('#apply').disabled));
+  await setInput('#seed', '7');
+  await setInput('#noise', '2.5');
+  await page.click('#apply');
+  await page.waitFor((old) => window.nephroid.state.generation > old &&
+    window.nephroid.state.settings.seed === 7, [generation]);
+  const { settings } = await state();
+  assert.ok(Math.abs(settings.noise - 0.025) < 1e-6);
+  await page.waitFor(() => document.querySelector('#apply').disabled);
+  await setInput('#seed', '0');
+  await setInput('#noise', '');
+  await page.click('#apply');
+  await page.waitFor(() => window.nephroid.state.settings.noise === null);
+});
+
 test('the help lists the keys', async () => {
   await page.press('?', 'Slash');
   await page.waitFor(() => document.querySelector('#help').open);
@@ -424,6 +442,9 @@ test('the picture comes back after the graphics card was reset', async () => {
   await page.waitFor(() => /was reset/.test(document.querySelector('#notice').textContent));
   await page.evaluate(() => window.card.restoreContext());
   await page.waitFor(() => window.nephroid.frame && document.querySelector('#notice').hidden);
+  await page.evaluate(() => document.querySelector('#pause-icon').click());
+  await isPaused();
+  await sleep(500);
   await expectSum({ picture: 1 });
 });
 

@@ -12,6 +12,7 @@ export class PictureFeed extends EventTarget {
   #asked = ''; // the last request, so that none is made twice
   #busy = false;
   #again = false;
+  #resets = 0; // a frame that was asked for before a reset lacks tiles
 
   constructor(server, wanted, receive) {
     super();
@@ -37,6 +38,7 @@ export class PictureFeed extends EventTarget {
   reset() {
     this.#shown = null;
     this.#asked = '';
+    ++this.#resets;
     this.update();
   }
 
@@ -61,16 +63,17 @@ export class PictureFeed extends EventTarget {
     const asked = [this.#state.generation, this.#state.version, layers].join('/');
     if (layers === '' || asked === this.#asked) return;
     this.#asked = asked;
+    const resets = this.#resets;
     const generation = this.#shown?.generation ?? this.#state.generation;
     try {
       const frame = await this.#server.frame({ layers, generation, since });
-      if (!frame || frame.header.layers.length === 0) return;
+      if (!frame || frame.header.layers.length === 0 || resets !== this.#resets) return;
       this.#receive(frame);
       this.#shown = frame.header;
       this.#layers = layers;
       this.dispatchEvent(new Event('frame'));
     } catch (error) {
-      this.#asked = '';
+      if (resets === this.#resets) this.#asked = '';
       this.dispatchEvent(new CustomEvent('problem', { detail: error.message }));
     }
   }

@@ -90,7 +90,7 @@ export class RenderPanel {
     byId('layer-choice').value = settings.layers;
     byId('seed').value = settings.seed;
     byId('time').value = settings.time ?? '';
-    byId('noise').value = settings.noise ?? '';
+    byId('noise').value = settings.noise === null ? '' : percentOf(settings.noise);
     [byId('width').value, byId('height').value] = settings.resolution;
     const whole = String(settings.crop) === String(kWhole);
     const percent = (value) => Math.round(100 * value);
@@ -104,13 +104,15 @@ export class RenderPanel {
   #changes() {
     const settings = this.#state.settings;
     const numberOrNull = (id) => (byId(id).value === '' ? null : byId(id).valueAsNumber);
+    const noise = numberOrNull('noise');
+    const keepsNoise = settings.noise !== null && noise === percentOf(settings.noise);
     const wanted = {
       integrator: byId('integrator').value,
       routes: byId('routes').value.trim(),
       layers: byId('layer-choice').value,
       seed: byId('seed').valueAsNumber,
       time: numberOrNull('time'),
-      noise: numberOrNull('noise'),
+      noise: noise === null ? null : keepsNoise ? settings.noise : noise / 100,
       resolution: [byId('width').valueAsNumber, byId('height').valueAsNumber],
     };
     return Object.fromEntries(Object.entries(wanted).filter(
@@ -122,4 +124,8 @@ export class RenderPanel {
     const valid = byId('settings-form').checkValidity();
     byId('apply').disabled = !valid || Object.keys(this.#changes()).length === 0;
   }
+}
+
+function percentOf(part) {
+  return Number((100 * part).toPrecision(6));
 }
