@@ -80,16 +80,19 @@ double target_distance(const CameraFrame& frame, const CameraPose& pose,
   return along > kMinDistance * sphere.radius ? along : sphere.radius;
 }
 
-[[noreturn]] void refuse(const std::string& fault, const std::string& expected) {
-  throw UsageError(fmt::format("camera: {}, expected {}", fault, expected));
+[[noreturn]] void refuse(const std::string& fault) {
+  throw UsageError("camera: " + fault);
 }
 
 void check_points(const CameraPose& pose) {
   for (const Vec3d& p : {pose.eye, pose.target})
     for (int i = 0; i < 3; ++i)
       if (!(std::abs(p[i]) <= double{kLargestCoordinate}))
-        refuse("the eye or the target is too far away or not a number", "coordinates up to 1e17");
-  if (pose.eye == pose.target) refuse("eye and target are the same point", "two different points");
+        refuse(
+            "the eye or the target is too far away or not a number, expected coordinates up to "
+            "1e17");
+  if (pose.eye == pose.target)
+    refuse("eye and target are the same point, expected two different points");
 }
 
 /// The frame of the pose, without a residual.
@@ -97,7 +100,8 @@ CameraFrame frame_of(const CameraPose& pose) {
   check_points(pose);
   const std::optional<CameraFrame> frame = frame_looking_at(pose.eye, pose.target, pose.up);
   if (!frame)
-    refuse("the up vector is zero, not a number, or parallel to the view", "another direction");
+    refuse(
+        "the up vector is zero, not a number, or parallel to the view, expected another direction");
   return *frame;
 }
 
@@ -105,19 +109,19 @@ void check_values(const CameraPose& pose, const ParameterSet& parameters) {
   for (const PoseParameter* wanted : kParameters)
     if (const std::optional<double>& value = pose.*wanted->value)
       if (!(std::abs(*value) <= double{std::numeric_limits<float>::max()}))
-        refuse(fmt::format("\"{}\" is not a finite float", wanted->name), "a finite number");
+        refuse(fmt::format("\"{}\" is not a finite float, expected a finite number", wanted->name));
   if (pose.fov && !(static_cast<float>(*pose.fov) > 0 && static_cast<float>(*pose.fov) < 180))
-    refuse(fmt::format("the field of view is {:g} degrees", *pose.fov),
-           "more than 0 and below 180");
+    refuse(fmt::format("the field of view is {:g} degrees, expected more than 0 and below 180",
+                       *pose.fov));
   if (pose.lens_radius && *pose.lens_radius < 0)
-    refuse(fmt::format("the radius of the lens is {:g}", *pose.lens_radius), "0 or more");
+    refuse(fmt::format("the lens radius is {:g}, expected 0 or more", *pose.lens_radius));
   if (pose.focal_distance && !(static_cast<float>(*pose.focal_distance) > 0))
-    refuse(fmt::format("the distance of the focus is {:g}", *pose.focal_distance), "more than 0");
+    refuse(fmt::format("the focal distance is {:g}, expected more than 0", *pose.focal_distance));
   const auto open = static_cast<float>(value_of(parameters, kShutterOpen)),
              close = static_cast<float>(value_of(parameters, kShutterClose));
   if ((pose.shutter_open || pose.shutter_close) && !(close > open))
-    refuse(fmt::format("the shutter opens at {:g} and closes at {:g}", open, close),
-           "that it closes later");
+    refuse(fmt::format("the shutter opens at {:g} and closes at {:g}, expected it to close later",
+                       open, close));
 }
 
 void set_values(CameraDescription* camera, const CameraPose& pose) {
@@ -125,8 +129,8 @@ void set_values(CameraDescription* camera, const CameraPose& pose) {
     const std::optional<double>& value = pose.*wanted->value;
     if (!value) continue;
     if (!has_parameter(camera->type, wanted->name))
-      refuse(fmt::format("a camera of type \"{}\" has no \"{}\"", camera->type, wanted->name),
-             "no value for it");
+      refuse(fmt::format("a camera of type \"{}\" has no \"{}\", expected no value for it",
+                         camera->type, wanted->name));
     if (value_of(camera->parameters, *wanted) == *value) continue;
     ParameterList list(camera->parameters.where);
     list.add_float(wanted->name, *value);

@@ -15,8 +15,9 @@ std::string camera_text(const SceneDescription& description);
 
 /// A scene that includes `included`, a pbrt scene, with the description's camera and film in place
 /// of its own. All bits of the camera are kept. It has to lie in the directory of the included
-/// scene, because file names are relative to the scene that is opened. Scenes of other formats
-/// cannot be included: write_pbrt (input/convert) writes their description whole.
+/// scene, because file names are relative to the scene that is opened. Moving instances turn about
+/// the new camera, as the format says. Scenes of other formats cannot be included: write_pbrt
+/// (input/convert) writes their description whole.
 std::string scene_text_with_camera(const SceneDescription& description,
                                    const std::string& included);
 

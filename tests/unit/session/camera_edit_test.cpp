@@ -216,11 +216,11 @@ TEST(SetCamera, RefusesPosesThatAreNone) {
   EXPECT_EQ(error([](CameraPose& p) { p.fov = kNan; }),
             "camera: \"fov\" is not a finite float, expected a finite number");
   EXPECT_EQ(error([](CameraPose& p) { p.lens_radius = -1; }),
-            "camera: the radius of the lens is -1, expected 0 or more");
+            "camera: the lens radius is -1, expected 0 or more");
   EXPECT_EQ(error([](CameraPose& p) { p.focal_distance = 0; }),
-            "camera: the distance of the focus is 0, expected more than 0");
+            "camera: the focal distance is 0, expected more than 0");
   EXPECT_EQ(error([](CameraPose& p) { p.shutter_open = 2; }),
-            "camera: the shutter opens at 2 and closes at 1, expected that it closes later");
+            "camera: the shutter opens at 2 and closes at 1, expected it to close later");
   EXPECT_EQ(matrix_of(scene), before);
   EXPECT_EQ(scene.camera->parameters.list.size(), 1u);
 }
