@@ -71,7 +71,6 @@ class Render {
 
   /// Writes what is rendered so far, see RenderSession. Throws IoError.
   void save(const std::string& path, bool with_state) { session_->save(path, with_state); }
-  PixelInspection inspect(int x, int y) { PixelInspection i; i.x = x; i.y = y; return i; }
   /// The report so far, see RenderSession.
   std::string report() { return session_->report(); }
 

@@ -137,21 +137,13 @@ void LiveRender::reload() {
 }
 
 void LiveRender::at_rest(std::function<void(const RenderAtRest&)> run) {
-  const auto task = std::make_shared<Task>();
-  task->run = std::move(run);
-  std::future<void> done = task->done.get_future();
+  const auto ticket = tasks_.add(std::move(run));
   {
     const std::lock_guard lock(mutex_);
-    tasks_.push_back(task);
     signals_.write = true;
   }
   changed_.notify_all();
-  while (done.wait_for(seconds(kLongestWaitForRest)) != std::future_status::ready) {
-    if (task->has_begun) continue;
-    task->is_given_up = true;
-    throw UsageError("the renderer is busy, try again");
-  }
-  done.get();
+  ticket->wait(kLongestWaitForRest);
 }
 
 std::optional<std::string> LiveRender::frame(const std::vector<std::string>& layers,
@@ -228,13 +220,12 @@ void LiveRender::work() {
         state.status = LiveStatus::kFailed;
         state.message = error.what();
       });
-      refuse_tasks(error.what());
+      refuse_tasks_until_edited(error.what());
     }
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return must_stop(); });
+    const std::lock_guard lock(mutex_);
     if (is_ending_) break;
   }
-  refuse_tasks("the view is closed");
+  tasks_.refuse("the view is closed");
 }
 
 void LiveRender::load(const Edits& edits) {
@@ -323,7 +314,7 @@ void LiveRender::connect(Render& render, const Edits& edits) {
   });
   render.on_request([this, &render, &edits] {
     const RenderAtRest rest{render, *loaded_, edits.is_moving, !edits.camera};
-    serve(rest);
+    tasks_.serve(rest);
     rest_while_paused(rest);
   });
 }
@@ -331,26 +322,6 @@ void LiveRender::connect(Render& render, const Edits& edits) {
 void LiveRender::renew_report(Render& render) {
   std::vector<std::string> lines = lines_of(render.report());
   publish([&lines](LiveState& state) { state.report = std::move(lines); });
-}
-
-void LiveRender::serve(const RenderAtRest& rest) {
-  while (true) {
-    std::shared_ptr<Task> task;
-    {
-      const std::lock_guard lock(mutex_);
-      if (tasks_.empty()) return;
-      task = tasks_.front();
-      tasks_.pop_front();
-    }
-    task->has_begun = true;
-    if (task->is_given_up) continue;
-    try {
-      task->run(rest);
-      task->done.set_value();
-    } catch (...) {
-      task->done.set_exception(std::current_exception());
-    }
-  }
 }
 
 void LiveRender::rest_while_paused(const RenderAtRest& rest) {
@@ -362,7 +333,7 @@ void LiveRender::rest_while_paused(const RenderAtRest& rest) {
   const double begin = steady_seconds();
   publish([](LiveState& state) { state.status = LiveStatus::kPaused; });
   while (is_at_rest()) {
-    serve(rest);
+    tasks_.serve(rest);
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !is_paused_ || must_stop() || !tasks_.empty(); });
   }
@@ -372,22 +343,19 @@ void LiveRender::rest_while_paused(const RenderAtRest& rest) {
 
 void LiveRender::rest_until_edited(const RenderAtRest& rest) {
   while (true) {
-    serve(rest);
+    tasks_.serve(rest);
     std::unique_lock lock(mutex_);
     if (must_stop()) return;
     changed_.wait(lock, [this] { return must_stop() || !tasks_.empty(); });
   }
 }
 
-void LiveRender::refuse_tasks(const std::string& why) {
-  std::deque<std::shared_ptr<Task>> tasks;
-  {
-    const std::lock_guard lock(mutex_);
-    tasks.swap(tasks_);
-  }
-  for (const auto& task : tasks) {
-    task->has_begun = true;
-    task->done.set_exception(std::make_exception_ptr(UsageError(why)));
+void LiveRender::refuse_tasks_until_edited(const std::string& why) {
+  while (true) {
+    tasks_.refuse(why);
+    std::unique_lock lock(mutex_);
+    if (must_stop()) return;
+    changed_.wait(lock, [this] { return must_stop() || !tasks_.empty(); });
   }
 }
 

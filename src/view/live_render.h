@@ -2,11 +2,8 @@
 // lets others read the film while no pixel is rendered. It must not know the server.
 #pragma once
 
-#include <atomic>
 #include <condition_variable>
-#include <deque>
 #include <functional>
-#include <future>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -15,18 +12,11 @@
 
 #include "session/render.h"
 #include "view/frame_store.h"
+#include "view/rest_tasks.h"
 #include "view/view_requests.h"
 #include "view/view_source.h"
 
 namespace nephroid {
-
-/// A render while no pixel is rendered.
-struct RenderAtRest {
-  Render& render;
-  const LoadedScene& loaded;
-  bool is_preview = false;
-  bool has_own_camera = true;  ///< the camera of the scene's file
-};
 
 class LiveRender final : public ViewSource {
  public:
@@ -74,11 +64,6 @@ class LiveRender final : public ViewSource {
     bool reloads = true;
     uint64_t generation = 1;
   };
-  struct Task {
-    std::function<void(const RenderAtRest&)> run;
-    std::promise<void> done;
-    std::atomic<bool> has_begun{false}, is_given_up{false};
-  };
 
   /// The render's thread.
   void work();
@@ -86,13 +71,11 @@ class LiveRender final : public ViewSource {
   void render(const Edits& edits);
   /// Connects a render with state, frames and tasks.
   void connect(Render& render, const Edits& edits);
-  /// Runs the tasks that wait.
-  void serve(const RenderAtRest& rest);
   /// Serves tasks until the render may go on.
   void rest_while_paused(const RenderAtRest& rest);
   /// Serves tasks until an edit or the end.
   void rest_until_edited(const RenderAtRest& rest);
-  void refuse_tasks(const std::string& why);
+  void refuse_tasks_until_edited(const std::string& why);
   Edits take_edits();
   bool must_stop() const;  ///< true after an edit or at the end
   /// Counts an edit; the lock is held.
@@ -108,11 +91,11 @@ class LiveRender final : public ViewSource {
   Edits edits_;
   uint64_t taken_generation_ = 0;  ///< generation of the edits that the thread has taken
   bool is_ending_ = false, is_paused_ = false;
-  std::deque<std::shared_ptr<Task>> tasks_;
   SceneDescription camera_scene_;  ///< camera and film of the scene alone, to try edits
   bool is_loaded_ = false;
   std::vector<std::string> files_;
   SignalFlags signals_;  ///< of the present run
+  RestTasks tasks_;
   FrameStore frames_;
 
   // Owned by the render's thread.
