@@ -54,7 +54,7 @@ struct PixelInspection {
 
 struct InspectionSettings {
   int camera_paths = 4096;
-  int64_t light_paths = 1 << 18;
+  int64_t light_paths = 1 << 19;
   uint64_t seed = 0;            ///< the render's seed, so that its learned values are used
   IntegratorOptions options{};  ///< the render's options
 };
