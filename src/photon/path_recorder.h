@@ -12,9 +12,9 @@ namespace nephroid {
 
 /// The light at the end of a path.
 struct PathEnd {
-  int light = -1;       ///< index in Scene::lights, -1 for the glow of a medium
-  int medium = -1;      ///< index of the glowing medium, -1 for a light
-  Vec3f p{0, 0, 0};     ///< point on the light, far away if it is infinite
+  int light = -1;         ///< index in Scene::lights, -1 for the glow of a medium
+  int medium = -1;        ///< index of the glowing medium, -1 for a light
+  Vec3f p{0, 0, 0};       ///< point on the light, far away if it is infinite
   bool has_place = true;  ///< false if `p` is unknown, as in a glowing medium
 };
 

@@ -85,8 +85,7 @@ class Inspector {
     for (size_t g = 0; g < set.routes->groups().size(); ++g) {
       const Estimator& estimator = *set.estimators[g];
       if (!estimator.records_pixels() || !wanted(estimator)) continue;
-      const auto& learned =
-          set.learned[g].learn(estimator, settings_.seed, scene_, film_.format());
+      const auto& learned = set.learned[g].learn(estimator, settings_.seed, scene_, film_.format());
       all.push_back({&estimator, learned.get(), set.routes.get(),
                      static_cast<uint32_t>(std::max<uint64_t>(found_.samples, 1) - 1)});
     }
@@ -130,9 +129,7 @@ class Inspector {
     return means;
   }
 
-  double luminance(const Rgb& color) const {
-    return film_.settings().color_space->to_xyz(color).y;
-  }
+  double luminance(const Rgb& color) const { return film_.settings().color_space->to_xyz(color).y; }
   double luminance(const ColorSum& color) const { return luminance(color.rounded()); }
   static Rgb mean_of(const SeriesMeans& means) {
     ColorSum sum;

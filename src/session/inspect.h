@@ -1,5 +1,6 @@
-// Explains a pixel: the shares of its routes and layers, which the film has, and those of its lights,
-// techniques and words, from paths that are traced again. It must not know how estimators work.
+// Explains a pixel: the shares of its routes and layers, which the film has, and those of its
+// lights, techniques and words, from paths that are traced again. It must not know how estimators
+// work.
 #pragma once
 
 #include <string>

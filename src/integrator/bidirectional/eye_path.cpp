@@ -43,9 +43,8 @@ void EyeVisitor::connect_to(const EyeEnd& z, const LightVertex& y, const PathSam
       double weight = 1;
       if (settings_.technique.weighted)
         weight =
-            1 /
-            (1 + cuts_before(y.sums, a.density.forward * line.at_b, b.density.back, b.merge) +
-             cuts_before(sums_.most(), b.density.forward * line.at_a, a.density.back, a.merge));
+            1 / (1 + cuts_before(y.sums, a.density.forward * line.at_b, b.density.back, b.merge) +
+                 cuts_before(sums_.most(), b.density.forward * line.at_a, a.density.back, a.merge));
       add_whole(part, y.lamp, Technique::kConnect,
                 whole_spectrum(arriving * a.f * b.f * static_cast<float>(weight),
                                left_of_both(z.walk.lambda.left(), y.lambda.left())));

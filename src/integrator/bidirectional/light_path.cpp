@@ -321,8 +321,8 @@ LightPathRecord record_light_path(const PairSettings& settings, const SampledWav
       settings, lambda, u_time, sampler, 0,
       [&](const Emission& emission) {
         begin_record(settings.scene, emission, record);
-        return RecordingVisitor(
-            LightVisitor(settings, emission, u_time, nullptr, nullptr, nullptr), record.walk);
+        return RecordingVisitor(LightVisitor(settings, emission, u_time, nullptr, nullptr, nullptr),
+                                record.walk);
       },
       [](const auto&, const Walk&) {});
   return record;

@@ -9,8 +9,9 @@
 namespace nephroid {
 
 /// Traces paths of the pixel with the techniques, weights and guides of `pass`, a pass of the film
-/// that does not connect. It has fewer light paths than the film's, each of which stands for several
-/// in the weights. `separates_chains`: walks of their own look for the pixel's specular chains.
+/// that does not connect. It has fewer light paths than the film's, each of which stands for
+/// several in the weights. `separates_chains`: walks of their own look for the pixel's specular
+/// chains.
 void record_pixel(PairPass pass, const PixelPass& pixel, const RadianceGuide& directions,
                   bool separates_chains, PathTally& tally);
 

@@ -17,8 +17,7 @@ PathLetters::PathLetters(const Scene& scene) {
   };
   for (size_t i = 0; i < scene.materials.size(); ++i)
     materials_.push_back(number(scene.material_labels, i));
-  for (size_t i = 0; i < scene.media.size(); ++i)
-    media_.push_back(number(scene.medium_labels, i));
+  for (size_t i = 0; i < scene.media.size(); ++i) media_.push_back(number(scene.medium_labels, i));
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     lights_.push_back(number(scene.light_labels, i));
     kinds_.push_back(kind_of(*scene.lights[i]));
@@ -46,9 +45,8 @@ std::string PathLetters::text(std::span<const Letter> word) const {
   for (const Letter e : word.first(word.size() - 1))
     text += event_text(event_symbol(static_cast<EventKind>(e & 7), label(e)), name(e), true) + " ";
   const Letter light = word.back();
-  return text +
-         light_text(light_symbol(static_cast<LightKind>(light & 7), label(light)), name(light),
-                    true);
+  return text + light_text(light_symbol(static_cast<LightKind>(light & 7), label(light)),
+                           name(light), true);
 }
 
 }  // namespace nephroid

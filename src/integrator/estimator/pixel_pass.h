@@ -1,5 +1,5 @@
-// PixelPass: a small pass over one pixel, whose paths are recorded to explain the pixel. It must not
-// know estimators.
+// PixelPass: a small pass over one pixel, whose paths are recorded to explain the pixel. It must
+// not know estimators.
 #pragma once
 
 #include "core/sampler.h"

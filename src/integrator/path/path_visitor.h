@@ -8,8 +8,8 @@
 #include "core/warps.h"
 #include "film/part_sums.h"
 #include "integrator/estimator/features.h"
-#include "photon/path_recorder.h"
 #include "integrator/path/specular_tree.h"
+#include "photon/path_recorder.h"
 #include "transport/direct_light.h"
 #include "transport/walk_symbols.h"
 

@@ -48,9 +48,8 @@ void SpecularChainPass::look(int x, int y, const Points& points, std::span<Rgb> 
     light.clear();
     walker.found.clear();
     if (walker.recorder != nullptr) walker.recorder->begin(path.walk.ray.o);
-    const uint64_t took = path.camera_weight > 0
-                              ? tree.look(path.walk, sampler, walker.found, walker.recorder)
-                              : 0;
+    const uint64_t took =
+        path.camera_weight > 0 ? tree.look(path.walk, sampler, walker.found, walker.recorder) : 0;
     walker.rays += took;
     for (const SpecularTree::Light& l : walker.found) l.add_to(light);
     double seen = 0;

@@ -134,8 +134,8 @@ SpecularTree::SpecularTree(const Scene& scene, const OwnedRoutes& owned, int max
       max_events_(max_events),
       finds_something_(owns_light_behind_specular(owned)) {}
 
-uint64_t SpecularTree::look(const Walk& walk, PathSampler& sampler,
-                            std::vector<Light>& found, PathRecorder* recorder) const {
+uint64_t SpecularTree::look(const Walk& walk, PathSampler& sampler, std::vector<Light>& found,
+                            PathRecorder* recorder) const {
   Walk root = walk;
   root.roulette_threshold = kWindow;
   return Visitor(*this, owned_.routes->start(), 0, found, recorder).run(root, sampler);

@@ -32,9 +32,7 @@ class SpecularTree {
 
     /// The value at the wavelengths that the walk started with.
     SampledSpectrum whole() const { return whole_spectrum(value, left); }
-    void add_to(PartSums& sums) const {
-      sums.add(part, lamp, whole(), Technique::kMeetByMirrors);
-    }
+    void add_to(PartSums& sums) const { sums.add(part, lamp, whole(), Technique::kMeetByMirrors); }
   };
 
   /// Adds to `found` all such lights of a camera walk that has had no event yet. Returns the number

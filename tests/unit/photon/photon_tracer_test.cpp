@@ -277,8 +277,8 @@ TEST(PhotonTracer, RecordsTheLightPathOfEachPhoton) {
     const LightPathRecord& path = photons.of(photon);
     EXPECT_EQ(owned.symbols->lamp(path.light), photon.lamp);
     ASSERT_GE(path.walk.events.size(), photon.events);
-    const auto place = std::ranges::find(path.walk.vertices, int{photon.events},
-                                         &WalkRecord::Vertex::events);
+    const auto place =
+        std::ranges::find(path.walk.vertices, int{photon.events}, &WalkRecord::Vertex::events);
     ASSERT_NE(place, path.walk.vertices.end());
     EXPECT_EQ(place->p, photon.p);
   }

@@ -114,8 +114,7 @@ TEST(Inspect, NamesTheLampThatLightsAFloor) {
 TEST(Inspect, FindsTheCasterOfACaustic) {
   Inspected view(std::string(kKey) + kBall, "mixed");
   const PixelInspection found = view.at(7, 3);
-  const InspectedPath* caustic =
-      path_of(found, "C <RD'floor'> <TS'glass'> <TS'glass'> <L.'key'>");
+  const InspectedPath* caustic = path_of(found, "C <RD'floor'> <TS'glass'> <TS'glass'> <L.'key'>");
   ASSERT_NE(caustic, nullptr);
   EXPECT_EQ(caustic->route, "caustic");
   EXPECT_EQ(caustic->technique, "photon merging");
@@ -209,8 +208,8 @@ TEST(Inspect, FindsTheLightOfEachWord) {
   for (size_t i = 0; i < kWords; ++i) {
     const Estimate layer = estimate_of(values[i]);
     const InspectedPath& path = found.paths[i];
-    const double error = path.share_error * luminance(found.traced) +
-                         path.share * found.traced_error;
+    const double error =
+        path.share_error * luminance(found.traced) + path.share * found.traced_error;
     EXPECT_NEAR(luminance(path.value), layer.mean, 5 * std::hypot(error, layer.error)) << path.word;
     EXPECT_LT(std::hypot(error, layer.error), 0.1 * layer.mean + 0.01 * luminance(found.traced))
         << path.word;
@@ -222,8 +221,7 @@ void expect_agreement(const char* integrator, uint32_t passes) {
   for (const Vec2i& pixel : {Vec2i(7, 3), Vec2i(7, 5), Vec2i(2, 9)}) {
     const PixelInspection found = view.at(pixel.x, pixel.y);
     const std::string where = fmt::format("{} at {},{}", integrator, pixel.x, pixel.y);
-    const double error =
-        std::hypot(luminance(found.standard_error), found.traced_error) + 1e-5;
+    const double error = std::hypot(luminance(found.standard_error), found.traced_error) + 1e-5;
     EXPECT_NEAR(luminance(found.traced), luminance(found.value), 5 * error) << where;
     EXPECT_LT(error, 0.08 * luminance(found.value)) << where;
     double of_lights = 0, of_techniques = 0, of_routes = 0;
@@ -236,10 +234,18 @@ void expect_agreement(const char* integrator, uint32_t passes) {
   }
 }
 
-TEST(Inspect, AgreesWithPathTracing) { expect_agreement("path-only", 400); }
-TEST(Inspect, AgreesWithPathsAndPhotons) { expect_agreement("mixed", 200); }
-TEST(Inspect, AgreesWithPhotonsBesidePaths) { expect_agreement("doidge2012", 200); }
-TEST(Inspect, AgreesWithBidirectionalPhotonMapping) { expect_agreement("bpm", 200); }
+TEST(Inspect, AgreesWithPathTracing) {
+  expect_agreement("path-only", 400);
+}
+TEST(Inspect, AgreesWithPathsAndPhotons) {
+  expect_agreement("mixed", 200);
+}
+TEST(Inspect, AgreesWithPhotonsBesidePaths) {
+  expect_agreement("doidge2012", 200);
+}
+TEST(Inspect, AgreesWithBidirectionalPhotonMapping) {
+  expect_agreement("bpm", 200);
+}
 
 TEST(Inspect, SaysWhatStandsInForEstimatorsOfWholePictures) {
   Inspected view(std::string(kKey) + kBall, "vcm", 200);
