@@ -5,6 +5,7 @@
 #include "photon/emission.h"
 #include "photon/photon.h"
 #include "transport/camera_path.h"
+#include "transport/walk_record.h"
 #include "transport/walk_symbols.h"
 
 namespace nephroid {
@@ -91,6 +92,12 @@ void launch_light_path(const LightPathLaunch& launch, const SampledWavelengths& 
     visitor.start(walk, *emission, sampler);
   random_walk(launch.scene, TransportMode::kImportance, launch.max_events, walk, sampler, visitor);
   finish(visitor, walk);
+}
+
+/// Begins the record of a light path at its start.
+inline void begin_record(const Scene& scene, const Emission& emission, LightPathRecord& record) {
+  record.light = emission.light;
+  record.walk.begin(scene.lights[emission.light]->is_area() ? emission.start.p : emission.ray.o);
 }
 
 /// Tracks the light-side state of a group's paths. A derived class adds `vertex` and hides whatever

@@ -13,7 +13,7 @@ PhotonMerger merger_at(const OwnedRoutes& owned, const MergePoint& at, int max_d
 /// Adds throughput * f * flux * weight to the parts of the photon's paths, and that times `bias` to
 /// their bias. True if the photon counts.
 bool add(const PhotonMerger& merger, const MergePoint& at, const Photon& photon, float weight,
-         float bias, PartSums& sums) {
+         float bias, PartSums& sums, PathRecorder* recorder = nullptr) {
   if (are_apart(at.left, photon.left)) return false;
   return merger.each_event(photon, [&](const MergeEvent& event) {
     const SampledSpectrum value = merged_spectrum(
@@ -21,6 +21,9 @@ bool add(const PhotonMerger& merger, const MergePoint& at, const Photon& photon,
         photon.left);
     sums.add(event.part, value);
     sums.add_merged(value, value * bias);
+    if (recorder != nullptr)
+      recorder->merge({event.part, Technique::kMerge, value},
+                      event_at(at.vertex, event.letter, event.wi), photon);
   });
 }
 
@@ -42,11 +45,11 @@ std::optional<PhotonArrival> arrival_at(const WalkVertex& vertex, const Photon& 
 }
 
 uint32_t merge_photons(const PhotonGrid& grid, const OwnedRoutes& owned, const MergePoint& at,
-                       int max_depth, float radius, PartSums& sums) {
+                       int max_depth, float radius, PartSums& sums, PathRecorder* recorder) {
   const PhotonMerger merger = merger_at(owned, at, max_depth);
   uint32_t found = 0;
   grid.query(at.vertex.surface.p, radius, [&](const Photon& photon, float d2) {
-    found += add(merger, at, photon, 1.0f, bias_factor(d2, radius), sums);
+    found += add(merger, at, photon, 1.0f, bias_factor(d2, radius), sums, recorder);
   });
   return found;
 }

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "film/part_sums.h"
+#include "photon/path_recorder.h"
 #include "photon/photon_grid.h"
 #include "route/scene_symbols.h"
 #include "transport/walk_symbols.h"
@@ -99,8 +100,10 @@ class PhotonMerger {
 /// count. Paths of other routes and paths longer than `max_depth` events are left out.
 /// [M2] A path that kept one wavelength on either side adds to that one alone, times the number of
 /// wavelengths. Two sides that kept different ones make no path.
+/// The recorder, if there is one, gets each path.
 uint32_t merge_photons(const PhotonGrid& grid, const OwnedRoutes& owned, const MergePoint& at,
-                       int max_depth, float radius, PartSums& sums);
+                       int max_depth, float radius, PartSums& sums,
+                       PathRecorder* recorder = nullptr);
 
 /// A query for the nearest photons of a map.
 struct NearestPhotons {

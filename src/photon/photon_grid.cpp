@@ -87,7 +87,8 @@ const PhotonGrid::Cell* PhotonGrid::Level::find(uint64_t code) const {
   }
 }
 
-PhotonGrid::PhotonGrid(std::vector<Photon> photons) : photons_(std::move(photons)) {
+PhotonGrid::PhotonGrid(std::vector<Photon> photons, std::vector<uint32_t>* order)
+    : photons_(std::move(photons)) {
   if (photons_.empty()) return;
   min_ = max_ = photons_[0].p;
   for (const Photon& photon : photons_)
@@ -102,7 +103,7 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons) : photons_(std::move(photons
   quantum_ = std::max({extent, magnitude * 1e-6f, std::numeric_limits<float>::min() * 1e8f}) /
              static_cast<float>(kMaxCoordinate);
   quanta_ = 1.0f / quantum_;
-  const std::vector<uint64_t> codes = sort();
+  const std::vector<uint64_t> codes = sort(order);
 
   // The finest cells hold a few photons each. Each level doubles the size, up to a single cell.
   const auto counts = count_cells(codes);
@@ -126,7 +127,7 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons) : photons_(std::move(photons
 
 // Stable radix sort by Morton code, 11 bits at a time, so that photons of one cell keep the order
 // in which they were traced.
-std::vector<uint64_t> PhotonGrid::sort() {
+std::vector<uint64_t> PhotonGrid::sort(std::vector<uint32_t>* order_of_all) {
   const size_t n = photons_.size();
   std::vector<uint64_t> codes(n), codes_other(n);
   std::vector<uint32_t> order(n), order_other(n);
@@ -152,6 +153,7 @@ std::vector<uint64_t> PhotonGrid::sort() {
   }
   bytes_ = photons_.capacity() * sizeof(Photon) +
            n * (2 * sizeof(uint64_t) + 2 * sizeof(uint32_t) + sizeof(Vec3f));
+  if (order_of_all != nullptr) *order_of_all = order;
   take_in_order(photons_, order);
   positions_.resize(n);
   for (size_t i = 0; i < n; ++i) positions_[i] = photons_[i].p;

@@ -16,8 +16,9 @@ namespace nephroid {
 
 class PhotonGrid {
  public:
-  /// Takes the photons and sorts them.
-  explicit PhotonGrid(std::vector<Photon> photons);
+  /// Takes the photons and sorts them. `order`, if it is not null, receives for each of photons()
+  /// its index in the argument.
+  explicit PhotonGrid(std::vector<Photon> photons, std::vector<uint32_t>* order = nullptr);
 
   size_t size() const { return photons_.size(); }
   const std::vector<Photon>& photons() const { return photons_; }
@@ -117,8 +118,8 @@ class PhotonGrid {
 
   uint32_t quantize(float x, int axis) const;
   void find_runs(const Vec3f& center, float radius, Runs& runs) const;
-  /// Sorts the photons and returns their Morton codes.
-  std::vector<uint64_t> sort();
+  /// Sorts the photons and returns their Morton codes. `order` as in the constructor.
+  std::vector<uint64_t> sort(std::vector<uint32_t>* order);
   /// The `count` cells of 2^shift quanta, in the order of their codes.
   static std::vector<Cell> finest_cells(int shift, const std::vector<uint64_t>& codes,
                                         size_t count);

@@ -113,26 +113,33 @@ struct Outcome {
   std::optional<PhotonVisitor::Caster> caster;
 };
 
-/// Traces light path `j` of the pass and adds its photons to `photons`.
-Outcome trace_photon(const Scene& scene, const OwnedRoutes& owned,
-                     const PhotonTraceSettings& settings, int64_t j, std::vector<Photon>& photons) {
+/// Launches light path `j` of the pass, as in launch_light_path.
+template <class MakeVisitor, class Finish>
+void launch(const Scene& scene, const PhotonTraceSettings& settings, int64_t j,
+            MakeVisitor&& make_visitor, Finish&& finish) {
   const LightPathSequence sequence{hash_combine(settings.key.seed, kStream)};
   const uint64_t number = uint64_t{settings.key.pass} * settings.photons_per_pass + j;
   const LightPathLaunch launch{scene, settings.guide->starts, settings.specular_alpha,
                                settings.max_events};
-  Outcome outcome;
   sequence.at(number, [&](PathSampler& sampler) {
-    launch_light_path(
-        launch, with_own_hero(settings.lambda, settings.key.seed, number), settings.time, sampler,
-        kEmissionDimensions,
-        [&](const Emission& emission) {
-          return PhotonVisitor(owned, settings.guide->casters, emission, photons);
-        },
-        [&](const PhotonVisitor& visitor, const Walk& walk) {
-          outcome = {visitor.useful(), visitor.specular(), walk.rays, visitor.start(),
-                     visitor.caster()};
-        });
+    launch_light_path(launch, with_own_hero(settings.lambda, settings.key.seed, number),
+                      settings.time, sampler, kEmissionDimensions, make_visitor, finish);
   });
+}
+
+/// Traces light path `j` of the pass and adds its photons to `photons`.
+Outcome trace_photon(const Scene& scene, const OwnedRoutes& owned,
+                     const PhotonTraceSettings& settings, int64_t j, std::vector<Photon>& photons) {
+  Outcome outcome;
+  launch(
+      scene, settings, j,
+      [&](const Emission& emission) {
+        return PhotonVisitor(owned, settings.guide->casters, emission, photons);
+      },
+      [&](const PhotonVisitor& visitor, const Walk& walk) {
+        outcome = {visitor.useful(), visitor.specular(), walk.rays, visitor.start(),
+                   visitor.caster()};
+      });
   return outcome;
 }
 
@@ -165,6 +172,27 @@ PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
     trace.rays += chunk.rays;
   }
   return trace;
+}
+
+void trace_photons_of_path(const Scene& scene, const OwnedRoutes& owned,
+                           const PhotonTraceSettings& settings, int64_t j,
+                           std::vector<Photon>& photons) {
+  trace_photon(scene, owned, settings, j, photons);
+}
+
+LightPathRecord record_photon_path(const Scene& scene, const OwnedRoutes& owned,
+                                   const PhotonTraceSettings& settings, int64_t j) {
+  LightPathRecord record;
+  std::vector<Photon> photons;
+  launch(
+      scene, settings, j,
+      [&](const Emission& emission) {
+        begin_record(scene, emission, record);
+        return RecordingVisitor(PhotonVisitor(owned, settings.guide->casters, emission, photons),
+                                record.walk);
+      },
+      [](const auto&, const Walk&) {});
+  return record;
 }
 
 UsefulStarts trace_useful_starts(const Scene& scene, const OwnedRoutes& owned,

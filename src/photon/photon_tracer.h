@@ -12,6 +12,7 @@
 #include "photon/photon_guide.h"
 #include "route/scene_symbols.h"
 #include "transport/random_walk.h"
+#include "transport/walk_record.h"
 
 namespace nephroid {
 
@@ -39,6 +40,14 @@ struct PhotonTraceSettings {
 /// by the number emitted.
 PhotonTrace trace_photons(const Scene& scene, const OwnedRoutes& owned,
                           const PhotonTraceSettings& settings, int64_t begin, int64_t end);
+
+/// Adds the photons of light path `j` alone to `photons`.
+void trace_photons_of_path(const Scene& scene, const OwnedRoutes& owned,
+                           const PhotonTraceSettings& settings, int64_t j,
+                           std::vector<Photon>& photons);
+/// The walk of that light path.
+LightPathRecord record_photon_path(const Scene& scene, const OwnedRoutes& owned,
+                                   const PhotonTraceSettings& settings, int64_t j);
 
 /// The useful starts found by paths of learning.
 struct UsefulStarts {

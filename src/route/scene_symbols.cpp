@@ -7,13 +7,14 @@
 #include "scene/shown_materials.h"
 
 namespace nephroid {
-namespace {
 
-LightKind kind_of_light(const Light& light) {
+LightKind kind_of(const Light& light) {
   if (light.is_area()) return LightKind::kShape;
   if (light.is_infinite()) return light.is_delta() ? LightKind::kDistant : LightKind::kEnvironment;
   return LightKind::kPoint;
 }
+
+namespace {
 
 // 0 if no expression mentions names[i].
 Label number_of(const std::vector<std::string>& names, size_t i,
@@ -54,7 +55,7 @@ SceneSymbols::SceneSymbols(const Scene& scene, const std::vector<std::string>& l
   }
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const LightSymbol symbol =
-        light_symbol(kind_of_light(*scene.lights[i]), number(scene.light_labels, i));
+        light_symbol(kind_of(*scene.lights[i]), number(scene.light_labels, i));
     lights_.push_back(symbol);
     present_.lights[symbol] = true;
   }

@@ -19,6 +19,8 @@ struct GlossyMaterial {
   std::optional<float> alpha;  ///< Material::facet_alpha
 };
 
+LightKind kind_of(const Light& light);
+
 class SceneSymbols {
  public:
   /// `labels` as Routes::labels().

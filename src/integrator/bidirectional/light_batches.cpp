@@ -15,17 +15,31 @@ constexpr int64_t kGroup = 32 * kChunk;
 
 }  // namespace
 
-LightPathCounts LightBatches::trace_path(int64_t j, std::vector<CameraSplat>& seen,
-                                         std::vector<Photon>& photons) const {
+template <class F>
+void LightBatches::at_path(int64_t j, F&& f) const {
   const uint64_t number = uint64_t{pass_.trace.key.pass} * config_.light_paths + j;
   LightPathSequence sequence{hash_combine(config_.seed, kLightStream), kLightPathDimensions};
   if (config_.number_varies) sequence.variant = config_.light_paths;
-  LightPathCounts counts;
   sequence.at(number, [&](PathSampler& sampler) {
-    counts = trace_light_path(settings_, with_own_hero(pass_.trace.lambda, config_.seed, number),
-                              pass_.u_time, sampler, nullptr, &seen, &photons);
+    f(sampler, with_own_hero(pass_.trace.lambda, config_.seed, number));
+  });
+}
+
+LightPathCounts LightBatches::trace_path(int64_t j, std::vector<CameraSplat>& seen,
+                                         std::vector<Photon>& photons) const {
+  LightPathCounts counts;
+  at_path(j, [&](PathSampler& sampler, const SampledWavelengths& lambda) {
+    counts = trace_light_path(settings_, lambda, pass_.u_time, sampler, nullptr, &seen, &photons);
   });
   return counts;
+}
+
+LightPathRecord LightBatches::record_path(int64_t j) const {
+  LightPathRecord record;
+  at_path(j, [&](PathSampler& sampler, const SampledWavelengths& lambda) {
+    record = record_light_path(settings_, lambda, pass_.u_time, sampler);
+  });
+  return record;
 }
 
 void LightBatches::trace_chunk(int64_t begin, int64_t end, Chunk& chunk) const {

@@ -36,15 +36,22 @@ class LightBatches {
   std::vector<Photon> next(const std::function<void(std::span<const Splat>)>& expose,
                            EstimatorStatistics& statistics);
 
+  /// Traces light path `j` of the pass alone. Adds its connections to `seen`, its photons to
+  /// `photons`.
+  LightPathCounts trace_path(int64_t j, std::vector<CameraSplat>& seen,
+                             std::vector<Photon>& photons) const;
+  /// The walk of that light path.
+  LightPathRecord record_path(int64_t j) const;
+
  private:
   struct Chunk {
     std::vector<Photon> photons;
     std::vector<Splat> splats;
     uint64_t rays = 0, useful = 0, specular = 0;
   };
-  /// Traces light path `j` of the pass.
-  LightPathCounts trace_path(int64_t j, std::vector<CameraSplat>& seen,
-                             std::vector<Photon>& photons) const;
+  /// Calls f(sampler, wavelengths) with the random numbers of light path `j` of the pass.
+  template <class F>
+  void at_path(int64_t j, F&& f) const;
   void trace_chunk(int64_t begin, int64_t end, Chunk& chunk) const;
   void reserve(std::vector<Photon>& photons, std::span<const Chunk> chunks,
                int64_t batch_begin) const;

@@ -217,6 +217,22 @@ class LightVisitor : public LightWalkVisitor {
   const MediumVertex* medium_ = nullptr;
 };
 
+/// Launches a light path with the sampler's numbers from `first_dimension` on, as in
+/// launch_light_path.
+template <class MakeVisitor, class Finish>
+void launch(const PairSettings& settings, const SampledWavelengths& lambda, float u_time,
+            PathSampler& sampler, int first_dimension, MakeVisitor&& make_visitor,
+            Finish&& finish) {
+  sampler.start_dimension(first_dimension);
+  // A technique with s light vertices, the light itself included, needs no more of them.
+  const int most = settings.technique.s < 0
+                       ? settings.max_depth
+                       : std::clamp(settings.technique.s - 1, 0, settings.max_depth);
+  const LightPathLaunch launch{settings.scene, settings.guide, settings.specular_alpha, most};
+  launch_light_path(launch, lambda, settings.scene.camera->motion_time(u_time), sampler,
+                    first_dimension + kEmissionDimensions, make_visitor, finish);
+}
+
 }  // namespace
 
 const Bsdf* LightVertex::bsdf() const {
@@ -286,16 +302,9 @@ LightPathCounts trace_light_path(const PairSettings& settings, const SampledWave
                                  std::vector<CameraSplat>* seen, std::vector<Photon>* photons,
                                  int first_dimension) {
   if (path) path->clear();
-  sampler.start_dimension(first_dimension);
-  // A technique with s light vertices, the light itself included, needs no more of them.
-  const int most = settings.technique.s < 0
-                       ? settings.max_depth
-                       : std::clamp(settings.technique.s - 1, 0, settings.max_depth);
-  const LightPathLaunch launch{settings.scene, settings.guide, settings.specular_alpha, most};
   LightPathCounts counts;
-  launch_light_path(
-      launch, lambda, settings.scene.camera->motion_time(u_time), sampler,
-      first_dimension + kEmissionDimensions,
+  launch(
+      settings, lambda, u_time, sampler, first_dimension,
       [&](const Emission& emission) {
         return LightVisitor(settings, emission, u_time, path, seen, photons);
       },
@@ -303,6 +312,20 @@ LightPathCounts trace_light_path(const PairSettings& settings, const SampledWave
         counts = {walk.rays + visitor.rays(), visitor.after_specular()};
       });
   return counts;
+}
+
+LightPathRecord record_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
+                                  float u_time, PathSampler& sampler) {
+  LightPathRecord record;
+  launch(
+      settings, lambda, u_time, sampler, 0,
+      [&](const Emission& emission) {
+        begin_record(settings.scene, emission, record);
+        return RecordingVisitor(LightVisitor(settings, emission, u_time, nullptr, nullptr, nullptr),
+                                record.walk);
+      },
+      [](const auto&, const Walk&) {});
+  return record;
 }
 
 }  // namespace nephroid

@@ -128,6 +128,7 @@ PairSampler::SampleLight PairSampler::trace(int x, int y, int samples, int k, Wo
                     .rays;
   }
   light.clear();
+  if (worker.recorder != nullptr) worker.recorder->begin(path.walk.ray.o);
   Features features;
   const bool sees = worker.sees && k == 0;
   const EyePathCounts counts =
@@ -135,7 +136,8 @@ PairSampler::SampleLight PairSampler::trace(int x, int y, int samples, int k, Wo
                      {.features = sees ? &features : nullptr,
                       .records = records.of_path(pixel_of(x, y), k, row.records),
                       .leaves = leaves_at(x - b.x0, y - b.y0),
-                      .merged = merged});
+                      .merged = merged,
+                      .recorder = worker.recorder});
   row.rays += counts.rays;
   row.probes += counts.probes;
   row.merged += counts.merged;
@@ -145,9 +147,11 @@ PairSampler::SampleLight PairSampler::trace(int x, int y, int samples, int k, Wo
   const double factor = static_cast<double>(path.camera_weight) * path.filter_weight * share;
   light.add_techniques_to(row.techniques, photons.weights, factor);
   worker.lamps.take(photons.weights, factor);
-  const std::span<const Rgb> colors = light.colors(
-      photons.weights, path.camera_weight, sums.waits ? kInfinity : format.settings().max_component,
-      path.filter_weight * share);
+  const float limit = sums.waits ? kInfinity : format.settings().max_component;
+  const std::span<const Rgb> colors =
+      light.colors(photons.weights, path.camera_weight, limit, path.filter_weight * share);
+  if (worker.recorder != nullptr)
+    worker.recorder->end(photons.weights, path.camera_weight, limit, path.filter_weight * share);
   for (size_t i = 0; i < parts; ++i) sums.values[i] = sums.values[i] + colors[i];
   if (!settings.merges_only) ++row.camera_paths;
   const double seen = total_of(colors);

@@ -52,7 +52,8 @@ class PairSampler {
     PartSums light;
     PairRow& row;
     LampCounter::Slice lamps;
-    bool sees = false;  ///< its paths add features to the film
+    bool sees = false;                 ///< its paths add features to the film
+    PathRecorder* recorder = nullptr;  ///< null: paths are not recorded
     Worker(const PairSampler& sampler, PairRow& of_row);
   };
   /// Sums that receive the light of a sample.

@@ -14,6 +14,7 @@
 #include "integrator/learning/radiance_guide.h"
 #include "integrator/path/specular_tree.h"
 #include "photon/emission_guide.h"
+#include "photon/path_recorder.h"
 #include "photon/photon_grid.h"
 #include "route/scene_symbols.h"
 #include "transport/camera_connection.h"
@@ -141,6 +142,10 @@ LightPathCounts trace_light_path(const PairSettings& settings, const SampledWave
                                  std::vector<CameraSplat>* seen, std::vector<Photon>* photons,
                                  int first_dimension = 0);
 
+/// The walk of a light path, as trace_light_path() runs it with the same arguments.
+LightPathRecord record_light_path(const PairSettings& settings, const SampledWavelengths& lambda,
+                                  float u_time, PathSampler& sampler);
+
 /// Optional outputs of an eye path; null: not wanted.
 struct EyePathExtras {
   Features* features = nullptr;                    ///< features at the first vertex
@@ -150,6 +155,8 @@ struct EyePathExtras {
   /// first rough vertex, if the path leaves it by a D.
   uint32_t* merged = nullptr;
   bool counts_merged = false;  ///< only adds the photons of a batch to `merged`, finds no light
+  /// Receives each path but those of connections, which pair passes alone do not make.
+  PathRecorder* recorder = nullptr;
 };
 
 /// Work done by an eye path.

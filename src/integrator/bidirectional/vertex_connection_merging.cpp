@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "integrator/bidirectional/pair_recording.h"
 #include "integrator/estimator/reach.h"
 #include "integrator/path/path_options.h"
 #include "integrator/photons/merge_radius.h"
@@ -50,9 +51,8 @@ int64_t default_light_paths(int64_t pixels) {
   return std::clamp(pixels, kMinPaths, kMaxPaths);
 }
 
-void VertexConnectionMerging::render_pass(const PassKey& key, const Learned*, const Scene& scene,
-                                          Film& film, PassControl& control) {
-  statistics_.tells_lamps = true;
+PairPass VertexConnectionMerging::pass_of(const PassKey& key, const Scene& scene,
+                                          const FilmFormat& film, PassControl& control) const {
   PairPass pass{.key = key,
                 .seed = hash_combine(key.seed, number_),
                 .scene = scene,
@@ -64,9 +64,23 @@ void VertexConnectionMerging::render_pass(const PassKey& key, const Learned*, co
                                     ? options_.photons_per_pass
                                     : default_light_paths(film.bounds().area());
   pass.techniques.connects = connects_;
-  pass.radius_pixels = radius_of_pass(options_, film.format().picture_pixels(), key.pass);
+  pass.radius_pixels = radius_of_pass(options_, film.picture_pixels(), key.pass);
+  return pass;
+}
+
+void VertexConnectionMerging::render_pass(const PassKey& key, const Learned*, const Scene& scene,
+                                          Film& film, PassControl& control) {
+  statistics_.tells_lamps = true;
   const SampleMap one_path(film.bounds()), no_walks(film.bounds(), 0);
-  render(pass, {.film = film, .samples = {one_path, no_walks}}, statistics_);
+  render(pass_of(key, scene, film.format(), control),
+         {.film = film, .samples = {one_path, no_walks}}, statistics_);
+}
+
+void VertexConnectionMerging::record_pixel(const PixelPass& pixel, const Learned*,
+                                           PathTally& tally) const {
+  PairPass pass = pass_of(pixel.key, pixel.scene, pixel.film, unwatched);
+  pass.radius_pixels = radius_of_pass(options_, pixel.film.picture_pixels(), pixel.radius_pass);
+  nephroid::record_pixel(pass, pixel, kNoRadiance, false, tally);
 }
 
 }  // namespace nephroid

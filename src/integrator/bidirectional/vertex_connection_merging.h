@@ -24,6 +24,9 @@ class VertexConnectionMerging : public Estimator {
   void render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
                    PassControl& control) override;
   EstimatorStatistics statistics() const override { return statistics_; }
+  /// The light of one pixel cannot be recorded if light paths are connected to the camera.
+  bool records_pixels() const override { return !connects_; }
+  void record_pixel(const PixelPass& pixel, const Learned*, PathTally& tally) const override;
 
  protected:
   VertexConnectionMerging(OwnedRoutes owned, const IntegratorOptions& options, bool connects,
@@ -31,6 +34,9 @@ class VertexConnectionMerging : public Estimator {
       : owned_(std::move(owned)), options_(options), connects_(connects), number_(number) {}
 
  private:
+  PairPass pass_of(const PassKey& key, const Scene& scene, const FilmFormat& film,
+                   PassControl& control) const;
+
   OwnedRoutes owned_;
   IntegratorOptions options_;
   bool connects_;

@@ -14,6 +14,9 @@
 
 namespace nephroid {
 
+class PathTally;
+struct PixelPass;
+
 class Estimator {
  public:
   virtual ~Estimator() = default;
@@ -40,6 +43,12 @@ class Estimator {
                            Film& film, PassControl& control) = 0;
   /// Counts of the passes rendered here, without those of learning.
   virtual EstimatorStatistics statistics() const = 0;
+  /// True if record_pixel() works.
+  virtual bool records_pixels() const { return false; }
+  /// Traces paths of one pixel with the walks, weights and learned values of render_pass() and adds
+  /// them to the tally, as an estimate of the pixel. May be called from several threads.
+  virtual void record_pixel(const PixelPass&, const Learned*, PathTally&) const {}
+
   /// Adds the state kept from pass to pass beside the film, so that a render can be resumed.
   /// Nothing if passes are independent.
   virtual void add_state(const Scene&, const Film&, RenderState&) {}

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "integrator/bidirectional/pair_recording.h"
 #include "integrator/bidirectional/vertex_connection_merging.h"
 #include "integrator/estimator/exposed_pixels.h"
 #include "integrator/estimator/reach.h"
@@ -237,6 +238,19 @@ void PathAndPhotons::render_pass(const PassKey& key, const Learned* learned, con
           .adds_features = true,
           .directions = plan.directions},
          statistics_);
+}
+
+void PathAndPhotons::record_pixel(const PixelPass& pixel, const Learned* learned,
+                                  PathTally& tally) const {
+  const MixPlan& plan = static_cast<const LearnedMix*>(learned)->plan();
+  const FilmFormat& film = pixel.film;
+  PairPass pass = pass_of(pixel.key, pixel.scene, film, plan, unwatched);
+  pass.radius_pixels = first_radius_of_film(plan.techniques, options_, film.picture_pixels()) *
+                       shrinkage(options_, pixel.radius_pass);
+  const PixelBounds& b = film.bounds();
+  const bool separates_chains = plan.techniques.separates_chains &&
+                                plan.samples.chains.at(pixel.x - b.x0, pixel.y - b.y0) > 0;
+  nephroid::record_pixel(pass, pixel, plan.directions, separates_chains, tally);
 }
 
 EstimatorStatistics PathAndPhotons::statistics() const {

@@ -29,6 +29,9 @@ class PathAndPhotons final : public Estimator {
   void render_pass(const PassKey& key, const Learned* learned, const Scene& scene, Film& film,
                    PassControl& control) override;
   EstimatorStatistics statistics() const override;
+  bool records_pixels() const override { return true; }
+  void record_pixel(const PixelPass& pixel, const Learned* learned,
+                    PathTally& tally) const override;
   /// Memory of a pass per pixel; `samples` is the user's number of samples, or 0.
   static size_t bytes_per_pixel(size_t parts, bool clamps, int samples) {
     const size_t most = std::max<size_t>(SampleMap::kMax, samples);

@@ -1,5 +1,7 @@
 #include "integrator/path/path.h"
 
+#include "integrator/estimator/path_tally.h"
+#include "integrator/estimator/pixel_pass.h"
 #include "integrator/estimator/reach.h"
 #include "integrator/path/path_options.h"
 #include "integrator/path/path_pass.h"
@@ -63,6 +65,32 @@ void PathEstimator::render_pass(const PassKey& key, const Learned*, const Scene&
   });
   lamps.add_to(statistics_);
   statistics_.camera_paths += film.bounds().area() * samples_per_pass_;
+}
+
+void PathEstimator::record_pixel(const PixelPass& pixel, const Learned*, PathTally& tally) const {
+  if (!finds_something_) return;
+  const Scene& scene = pixel.scene;
+  const FilmSettings& film = pixel.film.settings();
+  const PathOptions& own = options_.own<PathOptions>();
+  const SpecularTree tree(scene, owned_, options_.max_depth);
+  const float specular_alpha = specular_alpha_of_pass(scene.specular_band, pixel.key);
+  PartSums light(*owned_.routes, owned_.group);
+  for (int k = 0; k < pixel.camera_paths; ++k) {
+    const SobolPoint point =
+        eye_point(pixel.key.pass * static_cast<uint32_t>(pixel.camera_paths) + k);
+    PathSampler sampler(point, hash_combine(pixel.key.seed, kStream, pixel.x, pixel.y));
+    CameraPath path = start_own_path(scene, pixel.x, pixel.y, specular_alpha, sampler);
+    const SensorWeights weights = sensor_weights_of(path, film);
+    light.clear();
+    tally.begin(path.walk.ray.o);
+    RecordingVisitor visitor(PathVisitor(scene, owned_, own.blind_walks, light, nullptr,
+                                         own.specular_trees ? &tree : nullptr, &tally),
+                             tally.walk);
+    if (path.camera_weight > 0)
+      random_walk(scene, TransportMode::kRadiance, options_.max_depth, path.walk, sampler, visitor);
+    tally.end(weights, path.camera_weight, film.max_component,
+              path.filter_weight / static_cast<float>(pixel.camera_paths));
+  }
 }
 
 }  // namespace nephroid

@@ -18,6 +18,8 @@ class PathEstimator : public Estimator {
   void render_pass(const PassKey& key, const Learned*, const Scene& scene, Film& film,
                    PassControl& control) override;
   EstimatorStatistics statistics() const override { return statistics_; }
+  bool records_pixels() const override { return true; }
+  void record_pixel(const PixelPass& pixel, const Learned*, PathTally& tally) const override;
 
  private:
   OwnedRoutes owned_;

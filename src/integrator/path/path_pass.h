@@ -15,6 +15,11 @@
 
 namespace nephroid {
 
+inline SensorWeights sensor_weights_of(const CameraPath& path, const FilmSettings& film) {
+  return sensor_weights(path.walk.lambda, *film.color_space, film.imaging_ratio,
+                        film.white_balance);
+}
+
 /// Settings shared by the walks of a pass.
 struct PathPass {
   const PassKey& key;
@@ -28,11 +33,22 @@ struct PathPass {
   LampCounter* lamps = nullptr;  ///< null: lamps are not told apart
 
   SensorWeights weights_of(const CameraPath& path) const {
-    const FilmSettings& settings = film.settings();
-    return sensor_weights(path.walk.lambda, *settings.color_space, settings.imaging_ratio,
-                          settings.white_balance);
+    return sensor_weights_of(path, film.settings());
   }
 };
+
+/// Starts a path of a pixel with wavelengths and a time of its own.
+inline CameraPath start_own_path(const Scene& scene, int x, int y, float specular_alpha,
+                                 PathSampler& sampler) {
+  sampler.start_dimension(dimensions::kWavelength);
+  const SampledWavelengths lambda =
+      SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));
+  sampler.start_dimension(dimensions::kTime);
+  CameraPath path = start_camera_path(scene, x, y, sampler, lambda, sampler.get_1d());
+  path.walk.specular_alpha = specular_alpha;
+  path.walk.roulette_threshold = kCameraRouletteThreshold;
+  return path;
+}
 
 /// Calls trace(x, y, CameraPath&, const SensorWeights&, PathSampler&, PartSums&) -> rays for each
 /// sample of each pixel and adds the light that it finds to the film. Weights and light belong to
@@ -48,13 +64,7 @@ uint64_t trace_paths(const PathPass& pass, Trace&& trace) {
   const auto trace_sample = [&](int x, int y, int k, PartSums& light, LampCounter::Slice& lamps) {
     const uint64_t turn = (first + k) >> 32;
     PathSampler sampler(points[k], hash_combine(pass.key.seed, pass.stream, x, y, turn));
-    sampler.start_dimension(dimensions::kWavelength);
-    const SampledWavelengths lambda =
-        SampledWavelengths::sample_visible(wavelength_number(pass.scene, sampler.get_1d()));
-    sampler.start_dimension(dimensions::kTime);
-    CameraPath path = start_camera_path(pass.scene, x, y, sampler, lambda, sampler.get_1d());
-    path.walk.specular_alpha = specular_alpha;
-    path.walk.roulette_threshold = kCameraRouletteThreshold;
+    CameraPath path = start_own_path(pass.scene, x, y, specular_alpha, sampler);
     light.clear();
     const SensorWeights weights = pass.weights_of(path);
     const uint64_t rays = trace(x, y, path, weights, sampler, light);

@@ -9,6 +9,7 @@
 #include "film/part_sums.h"
 #include "integrator/estimator/features.h"
 #include "integrator/path/specular_tree.h"
+#include "photon/path_recorder.h"
 #include "transport/direct_light.h"
 #include "transport/walk_symbols.h"
 
@@ -25,9 +26,11 @@ class PathVisitorOf {
   static constexpr bool kEndsAtBranches = false;
 
   /// With `blind`, walks ignore which events are useful to the routes, so all routes see the same
-  /// paths. Null `features`: none are recorded. Null `tree`: none is grown.
+  /// paths. Null `features`: none are recorded. Null `tree`: none is grown. Null `recorder`: paths
+  /// are not recorded.
   PathVisitorOf(const Scene& scene, const OwnedRoutes& owned, bool blind, PartSums& light,
-                Features* features, const SpecularTree* tree = nullptr)
+                Features* features, const SpecularTree* tree = nullptr,
+                PathRecorder* recorder = nullptr)
       : scene_(scene),
         routes_(*owned.routes),
         symbols_(*owned.symbols),
@@ -35,6 +38,7 @@ class PathVisitorOf {
         blind_(blind),
         light_(light),
         features_(features),
+        recorder_(recorder),
         eye_(routes_.start()),
         root_(tree, SpecularRoot::Leaves::kBranches) {}
 
@@ -53,11 +57,12 @@ class PathVisitorOf {
       const SampledSpectrum le =
           light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda);
       if (le.is_black()) continue;
-      add(walk, part, symbols_.lamp(i),
-          walk.throughput * le *
-              (walk.delta ? 1.0f / walk.density.u_mean
-                          : weight_of_hit(walk, direct_pdf_w(scene_, walk, i))) *
-              self().share());
+      meet(walk, part,
+           walk.throughput * le *
+               (walk.delta ? 1.0f / walk.density.u_mean
+                           : weight_of_hit(walk, direct_pdf_w(scene_, walk, i))) *
+               self().share(),
+           end_at_infinity(scene_, i, walk.ray.o, walk.ray.d));
     }
   }
 
@@ -67,16 +72,21 @@ class PathVisitorOf {
     if (!light_.owns(part)) return;
     const SampledSpectrum le = light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda);
     if (le.is_black()) return;
-    add(walk, part, symbols_.lamp(hit.area_light),
-        walk.throughput * le *
-            (walk.delta ? 1.0f / walk.density.u_mean
-                        : weight_of_hit(walk, direct_pdf_w(scene_, walk, hit))) *
-            self().share());
+    meet(walk, part,
+         walk.throughput * le *
+             (walk.delta ? 1.0f / walk.density.u_mean
+                         : weight_of_hit(walk, direct_pdf_w(scene_, walk, hit))) *
+             self().share(),
+         {hit.area_light, -1, hit.p});
   }
 
   void medium_emission(const Medium& medium, const SampledSpectrum& radiance) {
     const Part part = routes_.owner(eye_, symbols_.glow(medium.index()));
-    if (light_.owns(part)) light_.add(part, symbols_.lamp_of_medium(medium.index()), radiance);
+    if (!light_.owns(part)) return;
+    light_.add(part, symbols_.lamp_of_medium(medium.index()), radiance);
+    if (recorder_ != nullptr)
+      recorder_->meet({part, Technique::kMeetLight, radiance},
+                      {.medium = medium.index(), .has_place = false});
   }
 
   ClassMask useful(const WalkVertex& v) const {
@@ -105,16 +115,18 @@ class PathVisitorOf {
     const ShadowFlight shadow = shadow_of(walk, nullptr, *d, sampler);
     if (shadow.transmittance.is_black()) return;
     const float phase = v.phase.eval(v.wo, d->wi_world);
-    add(walk, part, symbols_.lamp(d->light),
-        walk.throughput * d->radiance * shadow.transmittance *
-            (phase * weight_of_direct(walk, *d, shadow, phase)) *
-            self().share_after(EventClass::kVolume));
+    join(walk, part,
+         walk.throughput * d->radiance * shadow.transmittance *
+             (phase * weight_of_direct(walk, *d, shadow, phase)) *
+             self().share_after(EventClass::kVolume),
+         event_in(v.medium), *d, v.p);
   }
 
   bool branches(const Walk&) const { return root_.branches(); }
   void branch(const Walk& way, const WalkEvent& event, PathSampler& sampler) {
-    tree_rays_ +=
-        root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, light_);
+    const RecordedBranch recorded(recorder_ != nullptr ? &recorder_->walk : nullptr, event);
+    tree_rays_ += root_.branch(way, routes_.next(eye_, symbol_of(symbols_, event)), sampler, light_,
+                               recorder_);
   }
 
   bool scatter(const Walk& walk, const WalkEvent& event) {
@@ -127,8 +139,19 @@ class PathVisitorOf {
   uint64_t more_rays() const { return shadow_rays_ + tree_rays_; }
 
  protected:
-  void add(const Walk& walk, Part part, Lamp lamp, const SampledSpectrum& value) {
-    light_.add(part, lamp, whole_spectrum(value, walk.lambda.left()));
+  /// Adds light that the walk itself has come to.
+  void meet(const Walk& walk, Part part, const SampledSpectrum& value, const PathEnd& end) {
+    const SampledSpectrum whole = whole_spectrum(value, walk.lambda.left());
+    light_.add(part, symbols_.lamp(end.light), whole);
+    if (recorder_ != nullptr) recorder_->meet({part, Technique::kMeetLight, whole}, end);
+  }
+  /// Adds light that the event `last` at `p` scatters from a light sample.
+  void join(const Walk& walk, Part part, const SampledSpectrum& value, const WalkEvent& last,
+            const DirectSample& d, const Vec3f& p) {
+    const SampledSpectrum whole = whole_spectrum(value, walk.lambda.left());
+    light_.add(part, symbols_.lamp(d.light), whole);
+    if (recorder_ != nullptr)
+      recorder_->join({part, Technique::kSampleLight, whole}, last, end_at_sample(scene_, d, p));
   }
 
   const Scene& scene_;
@@ -138,6 +161,7 @@ class PathVisitorOf {
   const bool blind_;
   PartSums& light_;
   Features* const features_;
+  PathRecorder* const recorder_;
   EyeState eye_;
   uint64_t shadow_rays_ = 0;
 
@@ -212,9 +236,10 @@ class PathVisitorOf {
       if (evals[i].f.is_black()) continue;
       const EventClass c = kSurfaceClasses[i];
       const float walk_pdf = self().density(v, wi, c, among, evals[i].pdf_w);
-      add(walk, parts[i], symbols_.lamp(d->light),
-          arriving * evals[i].f *
-              (weight_of_direct(walk, *d, shadow, walk_pdf) * self().share_after(c)));
+      join(walk, parts[i],
+           arriving * evals[i].f *
+               (weight_of_direct(walk, *d, shadow, walk_pdf) * self().share_after(c)),
+           event_at(v, c, wi), *d, v.surface.p);
     }
   }
 

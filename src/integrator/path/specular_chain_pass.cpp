@@ -47,7 +47,9 @@ void SpecularChainPass::look(int x, int y, const Points& points, std::span<Rgb> 
     path.walk.per_wavelength = true;
     light.clear();
     walker.found.clear();
-    const uint64_t took = path.camera_weight > 0 ? tree.look(path.walk, sampler, walker.found) : 0;
+    if (walker.recorder != nullptr) walker.recorder->begin(path.walk.ray.o);
+    const uint64_t took =
+        path.camera_weight > 0 ? tree.look(path.walk, sampler, walker.found, walker.recorder) : 0;
     walker.rays += took;
     for (const SpecularTree::Light& l : walker.found) l.add_to(light);
     double seen = 0;
@@ -59,6 +61,9 @@ void SpecularChainPass::look(int x, int y, const Points& points, std::span<Rgb> 
       const double factor = static_cast<double>(path.camera_weight) * path.filter_weight * share;
       light.add_techniques_to(walker.techniques, weights, factor);
       walker.lamps.take(weights, factor);
+      if (walker.recorder != nullptr)
+        walker.recorder->end(weights, path.camera_weight, settings.max_component,
+                             path.filter_weight * share);
       for (size_t i = 0; i < values.size(); ++i) {
         values[i] = values[i] + colors[i] * share;
         seen += static_cast<double>(colors[i].r + colors[i].g + colors[i].b) / 3;

@@ -56,6 +56,7 @@ struct SpecularChainPass {
     LampCounter::Slice lamps;
     std::vector<SpecularTree::Light> found;
     uint64_t rays = 0;
+    PathRecorder* recorder = nullptr;  ///< null: paths are not recorded
   };
   /// Adds the estimate of a pixel, counted from the crop's corner, to values[part].
   void look(int x, int y, const Points& points, std::span<Rgb> values, Walker& walker) const;

@@ -43,14 +43,16 @@ class SpecularTree::Visitor {
  public:
   static constexpr bool kEndsAtBranches = true;
 
-  Visitor(const SpecularTree& tree, EyeState eye, int branchings, std::vector<Light>& found)
+  Visitor(const SpecularTree& tree, EyeState eye, int branchings, std::vector<Light>& found,
+          PathRecorder* recorder)
       : tree_(tree),
         routes_(*tree.owned_.routes),
         symbols_(*tree.owned_.symbols),
         group_(tree.owned_.group),
         eye_(eye),
         branchings_(branchings),
-        found_(found) {}
+        found_(found),
+        recorder_(recorder) {}
 
   void escape(const Walk& walk) {
     if (!routes_.ends(group_, eye_)) return;
@@ -58,16 +60,16 @@ class SpecularTree::Visitor {
       const Part part = routes_.owner(eye_, symbols_.light(i));
       if (!routes_.owns(group_, part)) continue;
       const nephroid::Light& light = *tree_.scene_.lights[i];
-      add(walk, part, symbols_.lamp(i),
-          light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda));
+      add(walk, part, light.radiance_at_infinity(walk.previous_p, walk.ray.d, walk.lambda),
+          end_at_infinity(tree_.scene_, i, walk.ray.o, walk.ray.d));
     }
   }
 
   void emitter(const Walk& walk, const SurfaceInteraction& hit, const nephroid::Light& light) {
     const Part part = routes_.owner(eye_, symbols_.light(hit.area_light));
     if (!routes_.owns(group_, part)) return;
-    add(walk, part, symbols_.lamp(hit.area_light),
-        light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda));
+    add(walk, part, light.radiance(hit.p, hit.ng, hit.uv, hit.wo, walk.lambda),
+        {hit.area_light, -1, hit.p});
   }
 
   void medium_emission(const Medium&, const SampledSpectrum&) {}
@@ -77,18 +79,23 @@ class SpecularTree::Visitor {
   }
   bool scatters_in(const Medium&) const { return false; }
   bool looks_under_surfaces() const { return false; }
-  void vertex(const Walk&, const WalkVertex&, PathSampler&) {}
+  void vertex(const Walk&, const WalkVertex& v, PathSampler&) {
+    if (recorder_ != nullptr) recorder_->walk.arrive(v.surface.p, v.subsurface_exit);
+  }
   void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
 
   bool branches(const Walk& walk) const {
     return branchings_ < kMaxBranchings && walk.carried() >= kWindow;
   }
   void branch(const Walk& way, const WalkEvent& event, PathSampler& sampler) {
-    Visitor visitor(tree_, routes_.next(eye_, symbol_of(symbols_, event)), branchings_ + 1, found_);
+    const RecordedBranch recorded(record(), event);
+    Visitor visitor(tree_, routes_.next(eye_, symbol_of(symbols_, event)), branchings_ + 1, found_,
+                    recorder_);
     rays_ += visitor.run(way, sampler);
   }
 
   bool scatter(const Walk& walk, const WalkEvent& event) {
+    if (recorder_ != nullptr) recorder_->walk.scatter(event);
     eye_ = routes_.next(eye_, symbol_of(symbols_, event));
     return walk.delta;
   }
@@ -99,10 +106,15 @@ class SpecularTree::Visitor {
   }
 
  private:
-  void add(const Walk& walk, Part part, Lamp lamp, const SampledSpectrum& radiance) {
+  WalkRecord* record() const { return recorder_ != nullptr ? &recorder_->walk : nullptr; }
+
+  void add(const Walk& walk, Part part, const SampledSpectrum& radiance, const PathEnd& end) {
     if (walk.events == 0 || radiance.is_black()) return;
-    found_.push_back({part, lamp, walk.throughput * radiance * (1.0f / walk.density.u_mean),
-                      walk.lambda.left(), std::min(1.0f, walk.carried())});
+    found_.push_back({part, symbols_.lamp(end.light),
+                      walk.throughput * radiance * (1.0f / walk.density.u_mean), walk.lambda.left(),
+                      std::min(1.0f, walk.carried())});
+    if (recorder_ != nullptr)
+      recorder_->meet({part, Technique::kMeetByMirrors, found_.back().whole()}, end);
   }
 
   const SpecularTree& tree_;
@@ -112,6 +124,7 @@ class SpecularTree::Visitor {
   EyeState eye_;
   const int branchings_;
   std::vector<Light>& found_;
+  PathRecorder* const recorder_;
   uint64_t rays_ = 0;
 };
 
@@ -121,17 +134,17 @@ SpecularTree::SpecularTree(const Scene& scene, const OwnedRoutes& owned, int max
       max_events_(max_events),
       finds_something_(owns_light_behind_specular(owned)) {}
 
-uint64_t SpecularTree::look(const Walk& walk, PathSampler& sampler,
-                            std::vector<Light>& found) const {
+uint64_t SpecularTree::look(const Walk& walk, PathSampler& sampler, std::vector<Light>& found,
+                            PathRecorder* recorder) const {
   Walk root = walk;
   root.roulette_threshold = kWindow;
-  return Visitor(*this, owned_.routes->start(), 0, found).run(root, sampler);
+  return Visitor(*this, owned_.routes->start(), 0, found, recorder).run(root, sampler);
 }
 
 uint64_t SpecularTree::follow(Walk branch, EyeState eye, PathSampler& sampler,
-                              std::vector<Light>& found) const {
+                              std::vector<Light>& found, PathRecorder* recorder) const {
   branch.roulette_threshold = kWindow;
-  return Visitor(*this, eye, 1, found).run(branch, sampler);
+  return Visitor(*this, eye, 1, found, recorder).run(branch, sampler);
 }
 
 }  // namespace nephroid

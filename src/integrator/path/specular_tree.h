@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "film/part_sums.h"
+#include "photon/path_recorder.h"
 #include "route/scene_symbols.h"
 #include "transport/random_walk.h"
 
@@ -29,19 +30,20 @@ class SpecularTree {
     /// absorbed, comes there.
     float chance = 1;
 
-    /// `sums` belong to the wavelengths that the walk started with.
-    void add_to(PartSums& sums) const {
-      sums.add(part, lamp, whole_spectrum(value, left), Technique::kMeetByMirrors);
-    }
+    /// The value at the wavelengths that the walk started with.
+    SampledSpectrum whole() const { return whole_spectrum(value, left); }
+    void add_to(PartSums& sums) const { sums.add(part, lamp, whole(), Technique::kMeetByMirrors); }
   };
 
   /// Adds to `found` all such lights of a camera walk that has had no event yet. Returns the number
-  /// of rays.
-  uint64_t look(const Walk& walk, PathSampler& sampler, std::vector<Light>& found) const;
+  /// of rays. The recorder, if there is one, gets each path.
+  uint64_t look(const Walk& walk, PathSampler& sampler, std::vector<Light>& found,
+                PathRecorder* recorder = nullptr) const;
 
   /// Adds to `found` all lights behind a branch; its events so far, all delta lobes, have led to
-  /// `eye`. Returns the number of rays.
-  uint64_t follow(Walk branch, EyeState eye, PathSampler& sampler, std::vector<Light>& found) const;
+  /// `eye` and are recorded. Returns the number of rays.
+  uint64_t follow(Walk branch, EyeState eye, PathSampler& sampler, std::vector<Light>& found,
+                  PathRecorder* recorder = nullptr) const;
 
  private:
   class Visitor;
@@ -69,10 +71,11 @@ class SpecularRoot {
   bool leaves_lights() const { return left_ && only_delta_; }
   /// Follows one of the two ways; `eye` is the state behind its first event. Adds the light to
   /// `sums` and returns the number of rays.
-  uint64_t branch(const Walk& way, EyeState eye, PathSampler& sampler, PartSums& sums) {
+  uint64_t branch(const Walk& way, EyeState eye, PathSampler& sampler, PartSums& sums,
+                  PathRecorder* recorder = nullptr) {
     left_ = true;
     found_.clear();
-    const uint64_t rays = tree_->follow(way, eye, sampler, found_);
+    const uint64_t rays = tree_->follow(way, eye, sampler, found_, recorder);
     for (const SpecularTree::Light& l : found_) l.add_to(sums);
     return rays;
   }

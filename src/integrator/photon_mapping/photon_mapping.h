@@ -20,6 +20,9 @@ class PhotonMapping : public Estimator {
   void render_pass(const PassKey& key, const Learned* learned, const Scene& scene, Film& film,
                    PassControl& control) override;
   EstimatorStatistics statistics() const override;
+  bool records_pixels() const override { return true; }
+  void record_pixel(const PixelPass& pixel, const Learned* learned,
+                    PathTally& tally) const override;
 
  private:
   OwnedRoutes owned_;

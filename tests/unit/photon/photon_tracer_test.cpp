@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/parallel.h"
 #include "input/pbrt_parser.h"
 #include "owned_routes.h"
+#include "photon/photon_histories.h"
 #include "source_directory.h"
 
 namespace nephroid {
@@ -256,6 +258,39 @@ TEST(PhotonTracer, AMapEndsWithAWholeChunkOfEachSetAndKeepsItAll) {
     expect_same(
         of_set(half, s),
         trace_photons(*scene, owned, sets[static_cast<size_t>(s)], 0, half.paths_of_set).photons);
+}
+
+// A recorded light path is the one that left the photon: it passes through the photon's place.
+TEST(PhotonTracer, RecordsTheLightPathOfEachPhoton) {
+  const auto scene = scene_from_text(kMany);
+  const OwnedRoutes owned = all_photons(*scene);
+  constexpr int64_t kPaths = 3000;
+  const PhotonTraceSettings s = settings(8, 2, kPaths);
+  PhotonHistories photons(
+      kPaths,
+      [&](int64_t j, std::vector<Photon>& into) {
+        trace_photons_of_path(*scene, owned, s, j, into);
+      },
+      [&](int64_t j) { return record_photon_path(*scene, owned, s, j); });
+  ASSERT_GT(photons.grid().size(), 500u);
+  for (const Photon& photon : photons.grid().photons()) {
+    const LightPathRecord& path = photons.of(photon);
+    EXPECT_EQ(owned.symbols->lamp(path.light), photon.lamp);
+    ASSERT_GE(path.walk.events.size(), photon.events);
+    const auto place =
+        std::ranges::find(path.walk.vertices, int{photon.events}, &WalkRecord::Vertex::events);
+    ASSERT_NE(place, path.walk.vertices.end());
+    EXPECT_EQ(place->p, photon.p);
+  }
+}
+
+TEST(PhotonTracer, TracesSinglePathsAsItTracesAll) {
+  const auto scene = scene_from_text(kMany);
+  const PhotonTraceSettings s = settings(8, 1, 2000);
+  std::vector<Photon> photons;
+  for (int64_t j = 0; j < s.photons_per_pass; ++j)
+    trace_photons_of_path(*scene, all_photons(*scene), s, j, photons);
+  expect_same(photons, trace_all(*scene, s).photons);
 }
 
 }  // namespace
