@@ -116,8 +116,8 @@ IntegratorChoice choose_integrator(const RenderRequest& request, const Scene& sc
 }
 
 Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWarnings warnings)
-    : warnings_(std::move(warnings)) {
-  const Scene& scene = *loaded.scene;
+    : scene_(*loaded.scene), warnings_(std::move(warnings)) {
+  const Scene& scene = scene_;
   choice_ = choose_integrator(request, scene);
   warn_of(loaded.warnings, warnings_.input);
   if (request.strict) refuse_unknown_names(loaded, choice_);
@@ -143,7 +143,7 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
   }
 
   RenderOptions options = request.options;
-  options.seed = request.seed.value_or(scene.scene_seed);
+  seed_ = options.seed = request.seed.value_or(scene.scene_seed);
   options.notes = notes();
   options.quick_look_depth = integrator.max_depth;
   identity_ = identity_of(request, loaded, choice_, plan_);
@@ -175,6 +175,13 @@ void Render::on_request(std::function<void()> callback) {
 }
 void Render::use_clock(std::function<double()> seconds) {
   session_->use_clock(std::move(seconds));
+}
+
+PixelInspection Render::inspect(int x, int y) {
+  InspectionSettings settings;
+  settings.seed = seed_;
+  settings.options = choice_.settings.integrator;
+  return inspect_pixel(scene_, set_, *film_, x, y, settings);
 }
 
 RenderResult Render::run(SignalFlags& signals) {

@@ -71,6 +71,8 @@ class Render {
 
   /// Writes what is rendered so far, see RenderSession. Throws IoError.
   void save(const std::string& path, bool with_state) { session_->save(path, with_state); }
+  /// Explains a pixel. Called after run() or from a callback. Throws UsageError.
+  PixelInspection inspect(int x, int y);
   /// The report so far, see RenderSession.
   std::string report() { return session_->report(); }
 
@@ -83,7 +85,9 @@ class Render {
   std::vector<std::string> notes() const;
 
  private:
+  const Scene& scene_;
   RenderWarnings warnings_;
+  uint64_t seed_ = 0;
   IntegratorChoice choice_;
   RoutePlan plan_;
   EstimatorSet set_;

@@ -15,8 +15,11 @@ Json shares_json(const std::vector<Share>& shares) {
 Json shares_json(const std::vector<EstimatedShare>& shares) {
   Json json = Json::array();
   for (const EstimatedShare& share : shares)
-    json.push_back(
-        {{"name", share.name}, {"value", json_of(share.value)}, {"error", share.error}});
+    json.push_back({{"name", share.name},
+                    {"value", json_of(share.value)},
+                    {"error", share.error},
+                    {"share", share.share},
+                    {"share_error", share.share_error}});
   return json;
 }
 
@@ -49,8 +52,9 @@ Json inspection_json(const PixelInspection& inspection) {
           {"lights", shares_json(inspection.lights)},
           {"techniques", shares_json(inspection.techniques)},
           {"traced", json_of(inspection.traced)},
+          {"traced_error", inspection.traced_error},
           {"paths", paths},
-          {"note", inspection.note}};
+          {"notes", inspection.notes}};
 }
 
 }  // namespace nephroid
