@@ -52,20 +52,20 @@ export class DisplayPanel {
 
   /// The picture has changed. Counts it again soon; at once if it shows something else.
   pictureChanged() {
-    if (this.#stage.shownLayer !== this.#counted) this.#count();
-    if (this.#timer) return;
-    this.#timer = setTimeout(() => {
-      this.#timer = 0;
-      this.#count();
-    }, kHistogramMs);
+    const isOther = this.#stage.shownLayer !== this.#counted;
+    if (this.#timer && !isOther) return;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#count(), isOther ? 0 : kHistogramMs);
   }
 
-  #count() {
-    const grid = this.#stage.renderer.readGrid(kHistogramPixels);
-    if (grid.length === 0) return;
+  async #count() {
+    const layer = this.#stage.shownLayer;
+    this.#counted = layer;
+    this.#timer = 0;
+    const grid = await this.#stage.renderer.readGrid(kHistogramPixels);
+    if (grid.length === 0 || layer !== this.#stage.shownLayer) return;
     const display = this.#display;
-    this.#counted = this.#stage.shownLayer;
-    const content = display.contentOf(this.#counted);
+    const content = display.contentOf(layer);
     if (content === 'number') {
       const [low, high] = rangeOf(grid);
       const range = display.view === 'Z' ? [low, high] : [high, low]; // near is white

@@ -4,13 +4,18 @@
 export function formatValue(value) {
   if (!Number.isFinite(value)) return String(value);
   const size = Math.abs(value);
-  if (size === 0) return '0';
+  if (Number.isInteger(value) && size < 1e5) return String(value);
   if (size < 1e-3 || size >= 1e5) return value.toExponential(2);
   return value.toPrecision(size >= 1000 ? 4 : 3);
 }
 
 export function formatColor(rgb) {
   return rgb.map(formatValue).join('  ');
+}
+
+/// "1 pass", "2 passes", "12 k samples".
+export function formatNumberOf(count, one, many) {
+  return `${formatCount(count)} ${count === 1 ? one : many}`;
 }
 
 /// 0.0312 as "3.1 %".

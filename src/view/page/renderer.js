@@ -138,10 +138,20 @@ export class Renderer {
     return [...sum.read(column, row, 1, 1).slice(0, 3)];
   }
 
-  /// Four numbers each for about that many pixels, spread evenly over the sum.
+  /// Draws a picture of one pixel once, so that the card's driver is ready when the first one comes.
+  warmUp(view, look) {
+    const layers = [{ name: 'picture', channels: 'RGB', scale: 1 }];
+    const header = { width: 1, height: 1, window: [0, 0, 1, 1], tile: 1, tiles: [0], layers };
+    this.setFrame('current', { header, halves: new Uint16Array(3) });
+    this.sum('current', () => [1, 1, 1]);
+    this.draw(view, look, { mode: 'none', split: 0 });
+    this.clear('current');
+  }
+
+  /// Promises four numbers each for about that many pixels, spread evenly over the sum.
   readGrid(count) {
     const { sum } = this.#pictures.current;
-    if (!sum.texture) return new Float32Array(0);
+    if (!sum.texture) return Promise.resolve(new Float32Array(0));
     const shrink = Math.min(1, Math.sqrt(count / (sum.width * sum.height)));
     this.#grid.resize(Math.ceil(sum.width * shrink), Math.ceil(sum.height * shrink));
     this.#grid.use();
@@ -152,7 +162,7 @@ export class Renderer {
     gl.uniform1i(at.picture, 0);
     gl.uniform2f(at.grid, this.#grid.width, this.#grid.height);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
-    return this.#grid.read(0, 0, this.#grid.width, this.#grid.height);
+    return this.#grid.readLater();
   }
 
   #bindPictures(at, view) {
@@ -167,6 +177,9 @@ export class Renderer {
     gl.uniform1i(at.hasCurrent, Number(Boolean(current.sum.texture)));
     gl.uniform4fv(at.currentRegion, regionOf(current.header, view.pictureSize));
     gl.uniform4fv(at.otherRegion, regionOf(other.header, view.pictureSize));
+    gl.uniform2i(at.currentTop, Math.max(0, current.sum.width - 1),
+      Math.max(0, current.sum.height - 1));
+    gl.uniform2i(at.otherTop, Math.max(0, other.sum.width - 1), Math.max(0, other.sum.height - 1));
   }
 
   #possible(mode) {

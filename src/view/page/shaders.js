@@ -58,6 +58,8 @@ uniform sampler2D other;
 uniform sampler2D heat;
 uniform vec4 currentRegion;     // x, y, width, height
 uniform vec4 otherRegion;
+uniform ivec2 currentTop;       // the last texel
+uniform ivec2 otherTop;
 uniform vec2 frameSize;         // full picture
 uniform float canvasHeight;
 uniform vec2 origin;            // top left of the picture on the canvas
@@ -75,26 +77,30 @@ uniform bool marks;
 uniform vec3 falseColors[${kFalseColors.length}];
 out vec4 color;
 
-vec3 texel(sampler2D picture, ivec2 at) {
-  return texelFetch(picture, clamp(at, ivec2(0), textureSize(picture, 0) - 1), 0).rgb;
+// Pictures are told apart by a number, so that the code below is there once.
+vec3 texel(int picture, ivec2 at) {
+  if (picture == 0) return texelFetch(current, clamp(at, ivec2(0), currentTop), 0).rgb;
+  return texelFetch(other, clamp(at, ivec2(0), otherTop), 0).rgb;
 }
 
-vec3 bilinear(sampler2D picture, vec2 at) {
+vec3 bilinear(int picture, vec2 at) {
   vec2 corner = floor(at - 0.5);
   vec2 part = at - 0.5 - corner;
-  ivec2 p = ivec2(corner);
-  return mix(mix(texel(picture, p), texel(picture, p + ivec2(1, 0)), part.x),
-             mix(texel(picture, p + ivec2(0, 1)), texel(picture, p + ivec2(1, 1)), part.x), part.y);
+  vec3 total = vec3(0.0);
+  for (int i = 0; i < 4; ++i) {
+    ivec2 step = ivec2(i & 1, i >> 1);
+    vec2 weight = mix(1.0 - part, part, vec2(step));
+    total += weight.x * weight.y * texel(picture, ivec2(corner) + step);
+  }
+  return total;
 }
 
-vec3 boxMean(sampler2D picture, vec2 at, vec2 width) {
+vec3 boxMean(int picture, vec2 at, vec2 width) {
   int n = clamp(int(ceil(max(width.x, width.y))), 1, 8);
   vec3 total = vec3(0.0);
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
-      vec2 offset = (vec2(i, j) + 0.5) / float(n) - 0.5;
-      total += texel(picture, ivec2(floor(at + offset * width)));
-    }
+  for (int i = 0; i < n * n; ++i) {
+    vec2 offset = (vec2(i % n, i / n) + 0.5) / float(n) - 0.5;
+    total += texel(picture, ivec2(floor(at + offset * width)));
   }
   return total / float(n * n);
 }
@@ -103,8 +109,10 @@ bool inside(vec4 region, vec2 place) {
   return all(greaterThanEqual(place, region.xy)) && all(lessThan(place, region.xy + region.zw));
 }
 
-vec3 look(sampler2D picture, vec4 region, vec2 place) {
-  vec2 density = vec2(textureSize(picture, 0)) / region.zw;  // texels a pixel of the full picture
+vec3 look(int picture, vec2 place) {
+  vec4 region = picture == 0 ? currentRegion : otherRegion;
+  vec2 size = vec2((picture == 0 ? currentTop : otherTop) + 1);
+  vec2 density = size / region.zw;  // texels a pixel of the full picture
   vec2 at = (place - region.xy) * density;
   vec2 width = density / zoom;
   if (width.x > 1.001) return boxMean(picture, at, width);
@@ -163,19 +171,18 @@ void main() {
   color = vec4(vec3(0.07), 1.0);
   if (!hasCurrent || !inside(vec4(vec2(0.0), frameSize), place)) return;
   color.rgb = vec3(0.035);
-  bool inCurrent = inside(currentRegion, place);
-  bool inOther = inside(otherRegion, place);
   if (compare == 4) {
     color.rgb = texture(heat, place / frameSize).rgb;
-  } else if (compare == 3) {
-    if (inCurrent && inOther) {
-      color.rgb = show(abs(look(current, currentRegion, place) - look(other, otherRegion, place)));
-    }
-  } else if (compare == 2 || (compare == 1 && canvas.x < split)) {
-    if (inOther) color.rgb = show(look(other, otherRegion, place));
-  } else if (inCurrent) {
-    color.rgb = show(look(current, currentRegion, place));
+    return;
   }
+  int first = compare == 2 || (compare == 1 && canvas.x < split) ? 1 : 0;
+  int last = compare == 3 ? 1 : first;
+  vec3 value = vec3(0.0);
+  for (int picture = first; picture <= last; ++picture) {
+    if (!inside(picture == 0 ? currentRegion : otherRegion, place)) return;
+    value = look(picture, place) - value;
+  }
+  color.rgb = show(compare == 3 ? abs(value) : value);
 }`;
 
 /// A linked program and the places of its uniforms: {program, at: {name: location}}.

@@ -35,6 +35,7 @@ export class Stage extends EventTarget {
     });
     new ResizeObserver(() => this.#resize()).observe(canvas);
     this.#resize();
+    this.renderer.warmUp(view, display.look());
   }
 
   /// compare: () => what ComparePanel wants drawn.

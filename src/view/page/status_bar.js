@@ -1,7 +1,9 @@
 // The bar on top, the readout below, notices and the report: what the program says of itself.
 
 import { byId, element } from './dom.js';
-import { formatColor, formatCount, formatDuration, formatShare, luminance } from './format.js';
+import {
+  formatColor, formatCount, formatDuration, formatNumberOf, formatShare, luminance,
+} from './format.js';
 
 const kStatus = {
   loading: 'Loading', rendering: 'Rendering', paused: 'Paused', done: 'Done', failed: 'Failed' };
@@ -52,10 +54,10 @@ export class StatusBar {
     }
     const parts = [`${pixel.x}, ${pixel.y}`];
     if (pixel.value) parts.push(formatColor(pixel.value));
-    if (pixel.error && luminance(pixel.value) > 0) {
+    if (pixel.error && luminance(pixel.error) > 0 && luminance(pixel.value) > 0) {
       parts.push(`± ${formatShare(luminance(pixel.error) / luminance(pixel.value))}`);
     }
-    if (pixel.samples > 0) parts.push(`${formatCount(pixel.samples)} samples`);
+    if (pixel.samples > 0) parts.push(formatNumberOf(pixel.samples, 'sample', 'samples'));
     byId('readout').textContent = parts.join('   ');
   }
 
@@ -76,8 +78,7 @@ export class StatusBar {
     if (key === this.#report) return;
     this.#report = key;
     byId('warning-count').hidden = warnings.length === 0;
-    byId('warning-count').textContent = warnings.length === 1 ? '1 warning'
-      : `${warnings.length} warnings`;
+    byId('warning-count').textContent = formatNumberOf(warnings.length, 'warning', 'warnings');
     const part = (title, lines, name) => (lines.length === 0 ? [] : [
       element('h3', { text: title }),
       ...lines.map((text) => element('p', { text, class: name }))]);
@@ -94,7 +95,7 @@ function statusText({ kind, status, message, progress = {} }) {
   const parts = [kStatus[status] ?? status];
   if (message) parts.push(message);
   if (['rendering', 'paused', 'done'].includes(status) && progress.passes > 0) {
-    parts.push(`${progress.passes} ${progress.passes === 1 ? 'pass' : 'passes'}`);
+    parts.push(formatNumberOf(progress.passes, 'pass', 'passes'));
     parts.push(formatDuration(progress.seconds));
     if (Number.isFinite(progress.seconds_left)) {
       parts.push(`${formatDuration(progress.seconds_left)} left`);

@@ -3,6 +3,8 @@
 
 import { tileRectangle, windowSize } from './protocol.js';
 
+const kPollMs = 8;
+
 /// The layers of a picture in a texture array. Frames of the same shape renew single tiles.
 export class LayerTextures {
   #gl;
@@ -115,12 +117,41 @@ export class FloatTarget {
     return values;
   }
 
+  /// Promises four numbers for each pixel, without waiting for the graphics card.
+  async readLater() {
+    const gl = this.#gl;
+    const values = new Float32Array(4 * this.width * this.height);
+    const buffer = gl.createBuffer();
+    this.use();
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
+    gl.bufferData(gl.PIXEL_PACK_BUFFER, values.byteLength, gl.STREAM_READ);
+    gl.readPixels(0, 0, this.width, this.height, gl.RGBA, gl.FLOAT, 0);
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
+    await finished(gl);
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
+    gl.getBufferSubData(gl.PIXEL_PACK_BUFFER, 0, values);
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
+    gl.deleteBuffer(buffer);
+    return values;
+  }
+
   release() {
     this.#gl.deleteFramebuffer(this.#framebuffer);
     this.#gl.deleteTexture(this.texture);
     this.#framebuffer = this.texture = null;
     this.width = this.height = 0;
   }
+}
+
+// Waits until the card has done all that it was told so far.
+async function finished(gl) {
+  const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  if (!fence) return; // the card is lost
+  gl.flush();
+  while (gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) {
+    await new Promise((resolve) => { setTimeout(resolve, kPollMs); });
+  }
+  gl.deleteSync(fence);
 }
 
 export function bindTexture(gl, unit, target, texture) {
