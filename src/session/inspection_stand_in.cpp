@@ -18,6 +18,22 @@ const EstimatorDescriptor& descriptor_named(std::string_view name) {
   });
 }
 
+StandIn stand_in_named(std::string_view name, const std::set<std::string>& replaced,
+                       const EstimatorSet& set, const Scene& scene,
+                       const IntegratorOptions& options) {
+  StandIn stand_in;
+  stand_in.estimator = &descriptor_named(name);
+  RoutePlan plan{set.routes->definitions(), set.routes->aovs(), false};
+  for (RouteDefinition& route : plan.routes)
+    if (replaced.contains(route.estimator->name)) route.estimator = &stand_in.estimator->traits;
+  stand_in.set = make_estimators(plan, options, scene);
+  stand_in.note = fmt::format(
+      "single paths of {} cannot be traced again: lights, techniques and words of {} routes are "
+      "estimated by {}",
+      fmt::join(replaced, ", "), replaced.size() == 1 ? "its" : "their", name);
+  return stand_in;
+}
+
 }  // namespace
 
 std::optional<StandIn> stand_in_for(const EstimatorSet& set, const Scene& scene,
@@ -27,25 +43,12 @@ std::optional<StandIn> stand_in_for(const EstimatorSet& set, const Scene& scene,
     if (!set.estimators[g]->records_pixels())
       replaced.insert(set.estimators[g]->descriptor().traits.name);
   if (replaced.empty()) return std::nullopt;
-  // `bpm` needs no learning and finds caustics. Only `path` finds all words.
-  for (const char* name : {"bpm", "path"}) {
-    StandIn stand_in;
-    stand_in.estimator = &descriptor_named(name);
-    RoutePlan plan{set.routes->definitions(), set.routes->aovs(), false};
-    for (RouteDefinition& route : plan.routes)
-      if (replaced.contains(route.estimator->name)) route.estimator = &stand_in.estimator->traits;
-    try {
-      stand_in.set = make_estimators(plan, options, scene);
-    } catch (const UsageError&) {
-      continue;
-    }
-    stand_in.note = fmt::format(
-        "single paths of {} cannot be traced again: lights, techniques and words of {} routes are "
-        "estimated by {}",
-        fmt::join(replaced, ", "), replaced.size() == 1 ? "its" : "their", name);
-    return stand_in;
+  // `bpm` needs no learning and finds caustics, but not all words.
+  try {
+    return stand_in_named("bpm", replaced, set, scene, options);
+  } catch (const UsageError&) {
+    return stand_in_named("path", replaced, set, scene, options);
   }
-  return std::nullopt;
 }
 
 }  // namespace nephroid

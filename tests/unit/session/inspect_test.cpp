@@ -18,11 +18,12 @@ namespace {
 
 using namespace testing_support;
 
-constexpr char kFloor[] = R"(
+constexpr char kView[] = R"(
   LookAt 0 4 -3  0 0 0  0 1 0
   Camera "perspective" "float fov" 40
-  Film "rgb" "integer xresolution" 15 "integer yresolution" 11
   PixelFilter "box" "float xradius" 0.5 "float yradius" 0.5
+  Film "rgb" "integer xresolution" 15 "integer yresolution" 11)";
+constexpr char kFloor[] = R"(
   WorldBegin
   MakeNamedMaterial "floor" "string type" "diffuse" "rgb reflectance" [0.6 0.6 0.6]
   NamedMaterial "floor"
@@ -43,8 +44,10 @@ const Vec3f kMiddleOfBall(0, 1.2f, 0.6f);
 constexpr float kRadiusOfBall = 0.5f;
 
 struct Inspected {
-  Inspected(const std::string& world, const Plan& plan, uint32_t passes = 1)
-      : scene(scene_from_text(kFloor + world)),
+  /// `film_parameters` end the Film directive.
+  Inspected(const std::string& world, const Plan& plan, uint32_t passes = 1,
+            const std::string& film_parameters = "")
+      : scene(scene_from_text(kView + film_parameters + kFloor + world)),
         set(make_estimators(plan, options(), *scene)),
         film(film_for(*scene, set)) {
     for (uint32_t pass = 0; pass < passes; ++pass) set.render_pass({kSeed, pass}, *scene, film);
@@ -53,7 +56,7 @@ struct Inspected {
   static IntegratorOptions options() {
     IntegratorOptions options;
     options.shrink_alpha = 1;
-    options.photons_per_pass = 20000;
+    options.photons_per_pass = 10000;
     options.radius = 0.4f;
     options.edit<PathOptions>().specular_trees = true;
     return options;
@@ -196,10 +199,10 @@ TEST(Inspect, FindsTheLightOfEachWord) {
   RoutePlan plan = plan_named("mixed");
   for (size_t i = 0; i < kWords; ++i)
     plan.aovs.push_back(parse_aov(fmt::format("word{}={}", i, found.paths[i].word)));
-  const auto scene = scene_from_text(kFloor + world);
+  const auto scene = scene_from_text(std::string(kView) + kFloor + world);
   const PlanLearned learned = learn(*scene, plan, Inspected::options(), 1);
   const SeedValues values = values_over_seeds(16, 1, [&](uint64_t seed) {
-    const Film film = render(*scene, plan, Inspected::options(), seed, 8, 0, learned);
+    const Film film = render(*scene, plan, Inspected::options(), seed, 6, 0, learned);
     std::vector<double> layers;
     for (size_t i = 0; i < kWords; ++i)
       layers.push_back(luminance(film.aov_value(static_cast<int>(i), 7, 4)));
@@ -211,19 +214,20 @@ TEST(Inspect, FindsTheLightOfEachWord) {
     const double error =
         path.share_error * luminance(found.traced) + path.share * found.traced_error;
     EXPECT_NEAR(luminance(path.value), layer.mean, 5 * std::hypot(error, layer.error)) << path.word;
-    EXPECT_LT(std::hypot(error, layer.error), 0.1 * layer.mean + 0.01 * luminance(found.traced))
+    EXPECT_LT(std::hypot(error, layer.error), 0.15 * layer.mean + 0.01 * luminance(found.traced))
         << path.word;
   }
 }
 
-void expect_agreement(const char* integrator, uint32_t passes) {
-  Inspected view(std::string(kKey) + kBall, integrator, passes);
+void expect_agreement(const char* integrator, uint32_t passes,
+                      const std::string& film_parameters = "") {
+  Inspected view(std::string(kKey) + kBall, integrator, passes, film_parameters);
   for (const Vec2i& pixel : {Vec2i(7, 3), Vec2i(7, 5), Vec2i(2, 9)}) {
     const PixelInspection found = view.at(pixel.x, pixel.y);
     const std::string where = fmt::format("{} at {},{}", integrator, pixel.x, pixel.y);
     const double error = std::hypot(luminance(found.standard_error), found.traced_error) + 1e-5;
     EXPECT_NEAR(luminance(found.traced), luminance(found.value), 5 * error) << where;
-    EXPECT_LT(error, 0.08 * luminance(found.value)) << where;
+    EXPECT_LT(error, 0.12 * luminance(found.value)) << where;
     double of_lights = 0, of_techniques = 0, of_routes = 0;
     for (const EstimatedShare& light : found.lights) of_lights += luminance(light.value);
     for (const EstimatedShare& t : found.techniques) of_techniques += luminance(t.value);
@@ -238,22 +242,49 @@ TEST(Inspect, AgreesWithPathTracing) {
   expect_agreement("path-only", 400);
 }
 TEST(Inspect, AgreesWithPathsAndPhotons) {
-  expect_agreement("mixed", 200);
+  expect_agreement("mixed", 100);
 }
 TEST(Inspect, AgreesWithPhotonsBesidePaths) {
-  expect_agreement("doidge2012", 200);
+  expect_agreement("doidge2012", 100);
 }
 TEST(Inspect, AgreesWithBidirectionalPhotonMapping) {
-  expect_agreement("bpm", 200);
+  expect_agreement("bpm", 100);
+}
+
+// Clamped samples lose the same light, whichever word it belongs to.
+TEST(Inspect, AgreesWithAFilmThatClampsAndCrops) {
+  const std::string film =
+      R"("float maxcomponentvalue" 0.7 "integer pixelbounds" [1 15 2 11]
+         PixelFilter "mitchell" "float xradius" 2 "float yradius" 2)";
+  expect_agreement("path-only", 400, film);
+  expect_agreement("mixed", 100, film);
 }
 
 TEST(Inspect, SaysWhatStandsInForEstimatorsOfWholePictures) {
-  Inspected view(std::string(kKey) + kBall, "vcm", 200);
-  const PixelInspection found = view.at(7, 3);
+  for (const auto& [integrator, estimator] :
+       {std::pair{"vcm", "vcm"}, {"sppm", "sppm"}, {"split", "lighttrace"}}) {
+    Inspected view(std::string(kKey) + kBall, integrator, 50);
+    const PixelInspection found = view.at(7, 3);
+    ASSERT_EQ(found.notes.size(), 1u) << integrator;
+    EXPECT_NE(found.notes[0].find(std::string("of ") + estimator), std::string::npos);
+    EXPECT_NE(found.notes[0].find("by bpm"), std::string::npos);
+    EXPECT_NEAR(luminance(found.traced), luminance(found.value), 0.15 * luminance(found.value))
+        << integrator;
+    EXPECT_NE(path_of(found, "C <RD'floor'> <TS'glass'> <TS'glass'> <L.'key'>"), nullptr);
+  }
+}
+
+TEST(Inspect, LetsPathTracingStandInWhereItAloneFindsTheLight) {
+  Inspected view(std::string(kKey) + R"(
+    MakeNamedMedium "fire" "string type" "homogeneous" "rgb sigma_s" [0 0 0] "rgb sigma_a" [1 1 1]
+      "rgb Le" [1 1 1]
+    Material "interface" MediumInterface "fire" "" Translate 0 1 0
+    Shape "sphere" "float radius" 1)",
+                 "pssmlt");
+  const PixelInspection found = view.at(7, 4);
   ASSERT_EQ(found.notes.size(), 1u);
-  EXPECT_NE(found.notes[0].find("vcm"), std::string::npos);
-  EXPECT_NE(found.notes[0].find("bpm"), std::string::npos);
-  EXPECT_NEAR(luminance(found.traced), luminance(found.value), 0.1 * luminance(found.value));
+  EXPECT_NE(found.notes[0].find("by path"), std::string::npos);
+  EXPECT_NE(path_of(found, "C <M.'fire'>"), nullptr);
 }
 
 TEST(Inspect, IsTheSameForAnyNumberOfThreads) {
