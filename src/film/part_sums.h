@@ -1,5 +1,5 @@
-// One estimate of a pixel: spectra by part of an estimator's routes, before they become colours. It
-// must not know walks or scenes.
+// One estimate of a pixel: spectra by part of an estimator's routes, before they become colours. A
+// path finds light of few parts, and only those take time. It must not know walks or scenes.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace nephroid {
 class PartSums {
  public:
   PartSums(const Routes& routes, size_t group)
-      : sums_(routes.groups()[group].parts.size()), colors_(sums_.size()) {
+      : sums_(routes.groups()[group].parts.size()), is_found_(sums_.size()), colors_(sums_.size()) {
     place_.fill(kNotOwned);
     for (size_t i = 0; i < sums_.size(); ++i)
       place_[routes.groups()[group].parts[i]] = static_cast<uint8_t>(i);
@@ -31,12 +31,12 @@ class PartSums {
   size_t place(Part part) const { return place_[part]; }
   void add(Part part, const SampledSpectrum& value) {
     assert(of_techniques_.empty());
-    sums_[place_[part]] += value;
+    sums_[place_with_light(part)] += value;
   }
   void add(Part part, const SampledSpectrum& value, Technique technique) {
-    sums_[place_[part]] += value;
-    if (!of_techniques_.empty())
-      of_techniques_[place_[part]][static_cast<size_t>(technique)] += value;
+    const size_t i = place_with_light(part);
+    sums_[i] += value;
+    if (!of_techniques_.empty()) of_techniques_[i][static_cast<size_t>(technique)] += value;
   }
   /// Turns on sums per technique.
   void tell_techniques_apart() { of_techniques_.resize(sums_.size()); }
@@ -44,7 +44,8 @@ class PartSums {
   /// `factor`. Values that are not finite are left out, as in the film.
   void add_techniques_to(std::span<TechniqueLight> light, const SensorWeights& weights,
                          double factor) const {
-    for (size_t i = 0; i < of_techniques_.size(); ++i)
+    if (of_techniques_.empty()) return;
+    for (const size_t i : found_)
       for (size_t t = 0; t < kTechniqueCount; ++t) {
         const Rgb color = weights.apply(of_techniques_[i][t]);
         const double found = factor * (static_cast<double>(color.r) + color.g + color.b);
@@ -88,8 +89,12 @@ class PartSums {
   /// The sum, of means of a colour's components, since the last clear().
   double photon_squares() const { return photon_squares_; }
   void clear() {
-    for (SampledSpectrum& sum : sums_) sum = SampledSpectrum();
-    for (auto& sums : of_techniques_) sums.fill(SampledSpectrum());
+    for (const size_t i : found_) {
+      sums_[i] = SampledSpectrum();
+      if (!of_techniques_.empty()) of_techniques_[i].fill(SampledSpectrum());
+      is_found_[i] = 0;
+    }
+    found_.clear();
     of_lamps_.clear();
     bias_ = SampledSpectrum();
     photon_squares_ = 0;
@@ -106,9 +111,11 @@ class PartSums {
   /// `filter_weight`. Valid until the next call.
   std::span<const Rgb> colors(const SensorWeights& weights, float factor, float max_component,
                               float filter_weight) {
-    for (size_t i = 0; i < sums_.size(); ++i) colors_[i] = weights.apply(sums_[i]) * factor;
+    for (const size_t i : colored_) colors_[i] = Rgb();
+    colored_ = found_;
+    for (const size_t i : found_) colors_[i] = weights.apply(sums_[i]) * factor;
     clamp_total(colors_, max_component);
-    for (Rgb& color : colors_) color = color * filter_weight;
+    for (const size_t i : found_) colors_[i] = colors_[i] * filter_weight;
     return colors_;
   }
 
@@ -124,6 +131,15 @@ class PartSums {
   }
 
  private:
+  /// The place of a part, noted as one with light.
+  size_t place_with_light(Part part) {
+    const uint8_t place = place_[part];
+    if (is_found_[place] == 0) {
+      is_found_[place] = 1;
+      found_.push_back(place);
+    }
+    return place;
+  }
   void add_of_lamp(Lamp lamp, const SampledSpectrum& value) {
     if (lamp_rays_.empty()) return;
     if (of_lamps_.empty() || of_lamps_.back().lamp != lamp) of_lamps_.push_back({lamp, {}});
@@ -133,6 +149,8 @@ class PartSums {
   static constexpr uint8_t kNotOwned = 255;
   std::array<uint8_t, 256> place_;
   std::vector<SampledSpectrum> sums_;
+  std::vector<uint8_t> is_found_;         ///< [place] 1: in found_
+  std::vector<uint8_t> found_, colored_;  ///< places with light, and those of colors_ in use
   std::vector<std::array<SampledSpectrum, kTechniqueCount>> of_techniques_;  ///< empty: off
   struct OfLamp {
     Lamp lamp;
