@@ -187,6 +187,13 @@ export class Page {
       { type: 'keyUp', key, code, modifiers, windowsVirtualKeyCode });
   }
 
+  /// Chooses a file in a file input.
+  async chooseFile(selector, file) {
+    const { root } = await this.send('DOM.getDocument');
+    const { nodeId } = await this.send('DOM.querySelector', { nodeId: root.nodeId, selector });
+    await this.send('DOM.setFileInputFiles', { nodeId, files: [file] });
+  }
+
   async screenshot(file) {
     const { data } = await this.send('Page.captureScreenshot', { format: 'png' });
     writeFileSync(file, Buffer.from(data, 'base64'));

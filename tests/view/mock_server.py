@@ -34,7 +34,7 @@ class Render:
         self.passes, self.started = 0, time.time()
         self.pose = copy.deepcopy(mock_scene.START)
         self.settings = {"integrator": "mixed", "integrators": ["mixed", "path", "photon"],
-                         "routes": "", "presets": ["split", "caustics"], "layers": "both",
+                         "routes": "", "presets": ["split", "caustics"], "layers": "lights",
                          "seed": 0, "time": None, "noise": None, "resolution": [320, 240],
                          "crop": [0, 1, 0, 1]}
         self.film = self.tile_versions = None
@@ -115,7 +115,7 @@ class Render:
         layers = [("picture", "picture", "RGB"), *((n, "route", "RGB") for n in mock_scene.ROUTES),
                   *((n, "light", "RGB") for n in mock_scene.LIGHTS), ("albedo", "feature", "RGB"),
                   ("N", "feature", "XYZ"), ("Z", "feature", "Z")]
-        shown = {"routes": ("light",), "lights": ("route",)}.get(self.settings["layers"], ())
+        left_out = ("light",) if self.settings["layers"] == "routes" else ()
         return {
             "scene": "mock/ball-on-floor.pbrt", "kind": "scene", "status": self.status,
             "message": "", "warnings": ["light \"sky\": no portal, so it is sampled everywhere"],
@@ -133,7 +133,7 @@ class Render:
                          "photons": 120000},
             "settings": self.settings, "exposure": 1.0,
             "layers": [{"name": n, "kind": k, "channels": c} for n, k, c in layers
-                       if k not in shown],
+                       if k not in left_out],
             "mix": {"exact": True, "why": ""},
             "camera": {**self.pose, "type": "perspective", "can_move": True, "mirrored": True},
             "comparisons": [{"id": i, "name": c.name} for i, c in self.comparisons.items()],

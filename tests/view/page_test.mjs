@@ -3,7 +3,8 @@
 // ADDRESS is what the program prints, with its token; without one the mock server is started.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { mkdirSync } from 'node:fs';
+import { mkdirSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
@@ -32,18 +33,35 @@ async function shot(name) {
   if (kScreenshots) await page.screenshot(join(kScreenshots, `${name}.png`));
 }
 
-/// The frame of the program with those layers.
-async function frameOf(layers) {
-  const text = await page.evaluate(async (names) => {
-    const query = new URLSearchParams({ layers: names.join(','), generation: 0, since: 0 });
-    const bytes = new Uint8Array(await (await fetch('api/frame?' + query)).arrayBuffer());
+/// Bytes that the page gets from the program.
+async function download(path) {
+  const text = await page.evaluate(async (from) => {
+    const bytes = new Uint8Array(await (await fetch(from)).arrayBuffer());
     let binary = '';
     for (let at = 0; at < bytes.length; at += 32768) {
       binary += String.fromCharCode(...bytes.subarray(at, at + 32768));
     }
     return btoa(binary);
-  }, layers);
-  return readFrame(Buffer.from(text, 'base64'));
+  }, path);
+  return Buffer.from(text, 'base64');
+}
+
+/// The frame of the program with those layers.
+async function frameOf(layers) {
+  const query = new URLSearchParams({ layers: layers.join(','), generation: 0, since: 0 });
+  return readFrame(await download(`api/frame?${query}`));
+}
+
+/// Asks for layers by route and by light, and pauses with their first pass.
+async function renderAllLayers() {
+  const { generation } = await state();
+  await page.evaluate(() => fetch('api/render', {
+    method: 'POST', headers: { 'Content-Type': 'application/json' },
+    body: JSON.stringify({ layers: 'lights' }) }));
+  await page.waitFor((old) => window.nephroid.frame.generation > old &&
+    window.nephroid.frame.passes > 0, [generation], 60000);
+  await page.press('p', 'KeyP');
+  await isPaused();
 }
 
 /// Compares pixels of the screen with the weighted sum of the program's layers.
@@ -117,7 +135,8 @@ after(async () => {
 });
 
 test('the first picture fills the stage', async () => {
-  await page.waitFor(() => !window.nephroid.frame.preview, [], 60000);
+  await page.waitFor(() => !window.nephroid.frame.preview && window.nephroid.frame.passes > 0, [],
+    60000);
   const { width, height } = await state();
   assert.equal((await page.evaluate(() => window.nephroid.frame)).width, width);
   const value = await page.evaluate((x, y) => window.nephroid.readPixel(x, y),
@@ -138,6 +157,8 @@ test('the picture alone is fetched as long as nothing is mixed', async () => {
 
 for (const kind of ['route', 'light']) {
   test(`gains of ${kind}s change the pixels exactly`, async (t) => {
+    const { kind: source, settings } = await state();
+    if (source === 'scene' && settings.layers === 'routes') await renderAllLayers();
     const names = (await state()).layers.filter((one) => one.kind === kind).map((one) => one.name);
     if (names.length === 0) return t.skip(`the picture has no ${kind}s`);
     await openPanel('layers-panel');
@@ -256,6 +277,22 @@ test('a snapshot is compared by slider, blink, difference and heat map', async (
   await setInput('#compare-with', '', 'change');
   await openPanel('layers-panel');
   await page.click('#mix-reset');
+});
+
+test('a saved picture is opened and compared', async () => {
+  const file = join(tmpdir(), `nephroid-view-${process.pid}.exr`);
+  writeFileSync(file, await download('api/save?kind=exr'));
+  await openPanel('compare-panel');
+  await page.chooseFile('#compare-file', file);
+  await page.waitFor((name) => {
+    const [chosen] = document.querySelector('#compare-with').selectedOptions;
+    return chosen.textContent.includes(name);
+  }, [`nephroid-view-${process.pid}`]);
+  await page.waitFor(() => /FLIP0/.test(document.querySelector('#compare-figures').textContent));
+  rmSync(file);
+  await page.click('#compare-remove');
+  await page.waitFor((name) => !document.querySelector('#compare-with').textContent.includes(name),
+    [`nephroid-view-${process.pid}`]);
 });
 
 test('a drag orbits with one request at a time, and Ctrl+Z goes back', async (t) => {
