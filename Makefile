@@ -2,7 +2,7 @@
 BUILD := build/release
 NEPHROID := $(BUILD)/bin/nephroid
 
-.PHONY: demo test test-quick test-nightly test-blender program build deps deps-clang clang sanitize asan tsan fuzz format check-format \
+.PHONY: demo test test-quick test-nightly test-blender test-view program build deps deps-clang clang sanitize asan tsan fuzz format check-format \
   check docs clean
 
 demo: program
@@ -37,6 +37,12 @@ test-blender: program
 	@mkdir -p out/blender
 	@blender -b --factory-startup --python-exit-code 1 -P tests/blender/scenes.py -- out/blender >out/blender/scenes.log
 	@blender -b --factory-startup --python-exit-code 1 -P tests/blender/run.py -- out/blender
+
+# The page of the view in headless Chromium, against the program and against a stand-in. Screenshots: out/view. Not part of
+# make test.
+test-view: program
+	@tools/install_deps view
+	@tests/view/run $(NEPHROID) out/view
 
 program: deps
 	@cmake --preset release >/dev/null
