@@ -32,9 +32,9 @@ export function setOptions(select, items) {
   if (items.some(([value]) => value === chosen)) select.value = chosen;
 }
 
-/// Fills a <dl> with [name, value] pairs. Values without a value are left out.
+/// Fills a <dl> with [name, value] pairs. Those whose value is none are left out; 0 is one.
 export function setFigures(list, pairs) {
-  const shown = pairs.filter(([, value]) => value !== null && value !== undefined && value !== '');
+  const shown = pairs.filter(([, value]) => value || value === 0);
   list.replaceChildren(...shown.flatMap(
     ([name, value]) => [element('dt', { text: name }), element('dd', { text: value })]));
 }

@@ -102,7 +102,8 @@ export class InspectorPanel {
 function valueFigures(answer) {
   const list = element('dl', { class: 'figures' });
   setFigures(list, [['Value', formatColor(answer.value)],
-    ['Error', `± ${formatColor(answer.error)}`], ['Samples', answer.samples]]);
+    ['Error', luminance(answer.error) > 0 && `± ${formatColor(answer.error)}`],
+    ['Samples', answer.samples]]);
   return list;
 }
 

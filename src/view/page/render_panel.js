@@ -78,7 +78,7 @@ export class RenderPanel {
       ['Photons', photons > 0 && (seconds > 0
         ? `${formatCount(photons)}, ${formatCount(photons / seconds)} a second`
         : formatCount(photons))],
-    ].map(([name, value]) => [name, value === false ? null : value]));
+    ]);
   }
 
   #showSettings(settings) {

@@ -138,7 +138,7 @@ export class Renderer {
     return [...sum.read(column, row, 1, 1).slice(0, 3)];
   }
 
-  /// Draws a picture of one pixel once, so that the card's driver is ready when the first one comes.
+  /// Draws a picture of one pixel, so that the card's driver is ready when the first one comes.
   warmUp(view, look) {
     const layers = [{ name: 'picture', channels: 'RGB', scale: 1 }];
     const header = { width: 1, height: 1, window: [0, 0, 1, 1], tile: 1, tiles: [0], layers };

@@ -1,6 +1,6 @@
 // The GLSL programs: the sum of layers, its display, and a grid of samples for the histogram.
 
-export const kMaxLayers = 32;
+export const kMaxLayers = 64;
 
 /// Colours of false colour, one a stop from 7 stops below middle grey on, in sRGB.
 export const kFalseColors = [

@@ -1,0 +1,120 @@
+// The page itself: names, contrast, narrow windows, lost connections and graphics cards.
+// Run by page_test.mjs.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import {
+  browser, expectSum, isPaused, mock, mockAddress, openPanel, page, shot, sleep, startMock,
+  stopMock,
+} from './live_page.mjs';
+
+test('the help lists the keys', async () => {
+  await page.press('?', 'Slash');
+  await page.waitFor(() => document.querySelector('#help').open);
+  await shot('help');
+  await page.click('#help button');
+  await page.waitFor(() => !document.querySelector('#help').open);
+});
+
+test('every control has a name', async () => {
+  const unnamed = await page.evaluate(() => [...document.querySelectorAll(
+    'button, input, select, textarea, a, summary, [role=slider]')].filter((one) =>
+    !(one.textContent.trim() || one.ariaLabel || one.labels?.length > 0)).map((one) =>
+    one.outerHTML));
+  assert.deepEqual(unnamed, []);
+});
+
+test('text has contrast enough for AA', async () => {
+  const low = await page.evaluate(() => {
+    const numbers = (color) => color.match(/[\d.]+/g).map(Number);
+    const light = (color) => {
+      const [r, g, b] = numbers(color).map((value) => {
+        const part = value / 255;
+        return part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4;
+      });
+      return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const groundOf = (one) => {
+      const color = getComputedStyle(one).backgroundColor;
+      return numbers(color)[3] === 0 && one.parentElement ? groundOf(one.parentElement) : color;
+    };
+    const ratio = (a, b) => (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+    return [...document.querySelectorAll('body *:not(:disabled, option)')]
+      .filter((one) => [...one.childNodes].some((node) =>
+        node.nodeType === Node.TEXT_NODE && node.textContent.trim()))
+      .filter((one) => ratio(light(getComputedStyle(one).color), light(groundOf(one))) < 4.5)
+      .map((one) => one.outerHTML);
+  });
+  assert.deepEqual(low, []);
+});
+
+test('at 360 pixels nothing is cut off', async () => {
+  await page.resize(360, 740);
+  await sleep(500);
+  await shot('narrow');
+  await page.click('#sheet-handle');
+  const panels = await page.evaluate(() =>
+    [...document.querySelectorAll('.panel')].map((one) => one.id));
+  for (const id of panels) {
+    await openPanel(id);
+    await sleep(150);
+    await shot(`narrow-${id}`);
+    const wide = await page.evaluate(() =>
+      [...document.querySelectorAll('body *:not(#overlay *, .unseen)')].filter((one) => {
+        const box = one.getBoundingClientRect();
+        return box.width > 1 && (box.right > 360.5 || box.left < -0.5);
+      }).map((one) => one.id || one.className || one.tagName));
+    assert.deepEqual(wide, [], `in the panel ${id}`);
+    assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth));
+  }
+  await page.resize(1280, 800);
+});
+
+test('the picture comes back after the graphics card was reset', async () => {
+  await page.evaluate(() => {
+    window.card = document.querySelector('#canvas').getContext('webgl2')
+      .getExtension('WEBGL_lose_context');
+    window.card.loseContext();
+  });
+  await page.waitFor(() => /was reset/.test(document.querySelector('#notice').textContent));
+  await page.evaluate(() => window.card.restoreContext());
+  await page.waitFor(() => window.nephroid.frame && document.querySelector('#notice').hidden);
+  await page.evaluate(() => document.querySelector('#pause-icon').click());
+  await isPaused();
+  await sleep(500);
+  await expectSum({ picture: 1 });
+});
+
+test('without WebGL 2 the page says so', async () => {
+  const other = await browser.open(800, 600);
+  await other.runFirst(() => {
+    HTMLCanvasElement.prototype.getContext = () => null;
+  });
+  await other.goto(new URL('/', await page.evaluate(() => location.href)).href);
+  await other.waitFor(() => /WebGL 2/.test(document.querySelector('#notice')?.textContent));
+  assert.deepEqual(other.problems, []);
+  await other.close();
+});
+
+test('nothing was complained of', () => {
+  assert.deepEqual(page.problems, []);
+});
+
+test('a lost connection is told and found again', async (t) => {
+  if (!mock) return t.skip('only with the mock server');
+  const { port, searchParams } = new URL(mockAddress);
+  await stopMock();
+  await page.waitFor(() => /No connection/.test(document.querySelector('#notice').textContent));
+  await shot('lost');
+  await startMock(port, searchParams.get('token'));
+  await page.waitFor(() => document.querySelector('#notice').hidden);
+  await page.waitFor(() => window.nephroid.frame?.generation === window.nephroid.state.generation);
+});
+
+test('a program started again wants its new address', async (t) => {
+  if (!mock) return t.skip('only with the mock server');
+  await stopMock();
+  await startMock(new URL(mockAddress).port, 'another');
+  await page.waitFor(() => /started again/.test(document.querySelector('#notice').textContent));
+  await shot('refused');
+});
