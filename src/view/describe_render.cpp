@@ -5,6 +5,7 @@
 
 #include "film/film_layers.h"
 #include "image/mix.h"
+#include "scene/camera/camera.h"
 
 namespace nephroid {
 namespace {
@@ -14,8 +15,8 @@ LayerKind kind_of(const std::string& name, const FilmLayout& layout,
                   const std::vector<LayerByLight>& lights) {
   if (name == "picture") return LayerKind::kPicture;
   if (std::ranges::find(layout.routes, name) != layout.routes.end()) return LayerKind::kRoute;
-  if (std::ranges::find(lights, name, &LayerByLight::layer) != lights.end())
-    return LayerKind::kLight;
+  const auto light = std::ranges::find(lights, name, &LayerByLight::layer);
+  if (light != lights.end() && light->route.empty()) return LayerKind::kLight;
   if (std::ranges::find(layout.aovs, name) != layout.aovs.end()) return LayerKind::kAov;
   return LayerKind::kFeature;
 }
@@ -80,6 +81,7 @@ void describe(const Render& render, const LoadedScene& loaded, bool is_preview, 
   state->notes = render.notes();
   state->report.clear();
   if (state->warnings.empty()) state->warnings = loaded.warnings;
+  state->is_mirrored = loaded.scene->camera->camera_to_world(0).m.determinant() < 0;
   state->camera_type = loaded.description.camera ? loaded.description.camera->type : "perspective";
 }
 

@@ -43,11 +43,13 @@ uint64_t FrameStore::update(const Film& film, FrameInfo info, double now) {
   return info_.version;
 }
 
-void FrameStore::add(const Film& film, const std::vector<std::string>& names) {
+void FrameStore::add(const Film& film, uint64_t generation,
+                     const std::vector<std::string>& names) {
   std::vector<std::string> missing;
   uint64_t version;
   {
     const std::lock_guard lock(mutex_);
+    if (generation != info_.generation) return;
     version = info_.version;
     for (const std::string& name : names)
       if (!layers_.contains(name)) missing.push_back(name);

@@ -17,8 +17,9 @@ class FrameStore {
   /// Makes the wanted layers of a film anew. `info` has the generation; version and film's
   /// properties are set here. Returns the version.
   uint64_t update(const Film& film, FrameInfo info, double now);
-  /// Makes those of `layers` that are not there, from the same film as the last update().
-  void add(const Film& film, const std::vector<std::string>& layers);
+  /// Makes those of `layers` that are not there. Does nothing for another generation than that of
+  /// the last update().
+  void add(const Film& film, uint64_t generation, const std::vector<std::string>& layers);
 
   /// Notes that these layers are wanted. True if the newest frame has all of them.
   bool want(const std::vector<std::string>& layers, double now);

@@ -149,7 +149,9 @@ void LiveRender::at_rest(std::function<void(const RenderAtRest&)> run) {
 std::optional<std::string> LiveRender::frame(const std::vector<std::string>& layers,
                                              uint64_t generation, uint64_t since) {
   if (!frames_.want(layers, steady_seconds()) && frames_.version() > 0)
-    at_rest([&](const RenderAtRest& rest) { frames_.add(rest.render.film(), layers); });
+    at_rest([&](const RenderAtRest& rest) {
+      if (rest.render.film().can_be_shown()) frames_.add(rest.render.film(), rest.generation, layers);
+    });
   return frames_.frame(layers, generation, since);
 }
 
@@ -274,7 +276,7 @@ void LiveRender::render(const Edits& edits) {
   });
   connect(render, edits);
   const RenderResult result = render.run(signals_);
-  const RenderAtRest rest{render, *loaded_, edits.is_moving, !edits.camera};
+  const RenderAtRest rest{render, *loaded_, edits.generation, edits.is_moving, !edits.camera};
   if (result.reason != StopReason::kSignal) {
     renew_report(render);
     publish([&](LiveState& state) {
@@ -313,7 +315,7 @@ void LiveRender::connect(Render& render, const Edits& edits) {
       renew_report(render);
   });
   render.on_request([this, &render, &edits] {
-    const RenderAtRest rest{render, *loaded_, edits.is_moving, !edits.camera};
+    const RenderAtRest rest{render, *loaded_, edits.generation, edits.is_moving, !edits.camera};
     tasks_.serve(rest);
     rest_while_paused(rest);
   });

@@ -53,6 +53,7 @@ struct LiveState {
   float exposure = 1;              ///< of the PNG
   CameraPose camera;
   std::string camera_type;
+  bool is_mirrored = false;  ///< the camera's own space is mirrored: right is left
 };
 
 }  // namespace nephroid

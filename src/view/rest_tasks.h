@@ -17,6 +17,7 @@ namespace nephroid {
 struct RenderAtRest {
   Render& render;
   const LoadedScene& loaded;
+  uint64_t generation = 0;  ///< counts edits
   bool is_preview = false;
   bool has_own_camera = true;  ///< the camera of the scene's file
 };

@@ -96,6 +96,7 @@ Json camera_json(const LiveState& state) {
             {"focal_distance", json_or_null(pose.focal_distance)},
             {"shutter", nullptr},
             {"type", state.camera_type},
+            {"mirrored", state.is_mirrored},
             {"can_move", state.is_scene}};
   if (pose.shutter_open && pose.shutter_close)
     json["shutter"] = {*pose.shutter_open, *pose.shutter_close};

@@ -118,7 +118,7 @@ TEST(Frame, LayersThatNobodyHasAskedForAreMadeOnRequest) {
   store.update(film, {}, 0);
   EXPECT_TRUE(store.want({"picture"}, 0));
   EXPECT_FALSE(store.want({"picture", "all"}, 0));
-  store.add(film, {"all"});
+  store.add(film, 0, {"all"});
   EXPECT_TRUE(store.want({"all"}, 0));
   EXPECT_EQ(decode(*store.frame({"all"}, 0, 0)).header["layers"][0]["name"], "all");
   // From now on it is made with each picture, until the interest ends.
@@ -132,7 +132,7 @@ TEST(Frame, AFilmWithoutALayerLeavesItOut) {
   const Film film = film_with(4, 4, [](int, int) { return kGrey; });
   FrameStore store;
   store.update(film, {}, 0);
-  store.add(film, {"caustic"});
+  store.add(film, 0, {"caustic"});
   const Decoded frame = decode(*store.frame({"picture", "caustic"}, 0, 0));
   EXPECT_EQ(frame.header["layers"].size(), 1u);
 }
