@@ -106,7 +106,16 @@ struct BenchCommand {
 };
 
 enum class Action {
-  kRender, kView, kMerge, kMix, kInfo, kCompare, kRoutes, kBench, kConvert, kPrint
+  kRender,
+  kView,
+  kMerge,
+  kMix,
+  kInfo,
+  kCompare,
+  kRoutes,
+  kBench,
+  kConvert,
+  kPrint
 };
 
 /// A parsed command line.

@@ -16,9 +16,8 @@ const OptionDescription kOwnRows[] = {
     {"view", "SCENE", "", "", "", "", "",
      "A scene (pbrt-v4, glTF, Mitsuba XML or OBJ), or a picture that this program wrote.", false,
      [](CommandLine& l, const std::string& t) { l.render.scene = t; }},
-    {"view", "--compare", "", "PICTURE", "", "none", "Page",
-     "A picture to compare with, an EXR.", true,
-     [](CommandLine& l, const std::string& t) { l.view.comparisons.push_back(t); }},
+    {"view", "--compare", "", "PICTURE", "", "none", "Page", "A picture to compare with, an EXR.",
+     true, [](CommandLine& l, const std::string& t) { l.view.comparisons.push_back(t); }},
     {"view", "--save-to", "", "DIR", "", "the browser's downloads", "Page",
      "Directory for pictures and scenes that are saved on the page.", false,
      [](CommandLine& l, const std::string& t) { l.view.save_directory = t; }},
@@ -38,9 +37,9 @@ const OptionDescription kOwnRows[] = {
 
 /// Options of `render` that mean the same here.
 constexpr std::string_view kSharedNames[] = {
-    "--output", "--resume",    "--aov",        "--layers",     "--integrator", "--routes",
-    "--route",  "--strict-routes", "-D",       "--outliers",   "--seed",       "--time",
-    "--noise",  "--resolution", "--crop",      "--threads",    "--memory"};
+    "--output", "--resume",        "--aov",  "--layers",   "--integrator", "--routes",
+    "--route",  "--strict-routes", "-D",     "--outliers", "--seed",       "--time",
+    "--noise",  "--resolution",    "--crop", "--threads",  "--memory"};
 
 }  // namespace
 
@@ -52,6 +51,8 @@ std::vector<OptionDescription> view_rows(std::span<const OptionDescription> tabl
       continue;
     rows.push_back(row);
     rows.back().command = "view";
+    // What the sliders of the page need is not rare here.
+    if (std::string_view(row.name) == "--layers") rows.back().is_rare = false;
   }
   const std::vector<OptionDescription> imports = import_rows("view");
   rows.insert(rows.end(), imports.begin(), imports.end());

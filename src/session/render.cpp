@@ -154,9 +154,9 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
       (std::filesystem::exists(saved) || std::filesystem::exists(state_path_beside(saved))))
     resume(saved, options, scene, set_, *film_, warnings_.output);
   else if (request.resume)
-    warn_of({fmt::format("--resume: there is no {} and no state of it, the render starts anew",
-                         saved)},
-            warnings_.output);
+    warn_of(
+        {fmt::format("--resume: there is no {} and no state of it, the render starts anew", saved)},
+        warnings_.output);
   else if (const auto warning = warning_of_replacing(options.output, identity_))
     warn_of({*warning}, warnings_.output);
 

@@ -1,5 +1,5 @@
 // Who may talk to the server: a token in the address, a cookie from then on, and requests that come
-// from the page itself. docs/adr/0040-the-view.md says what is trusted. It must not know the HTTP library.
+// from the page itself (docs/adr/0040-the-view.md). It must not know the HTTP library.
 #pragma once
 
 #include <string>

@@ -149,8 +149,8 @@ Answer Answers::frame(const Parameters& parameters, const std::string&) {
   if (!id.empty()) return comparison_frame(id);
   std::vector<std::string> layers = split(text(parameters, "layers"));
   if (layers.empty()) layers = {"picture"};
-  auto bytes = source_.frame(layers, number(parameters, "generation", 0),
-                             number(parameters, "since", 0));
+  auto bytes =
+      source_.frame(layers, number(parameters, "generation", 0), number(parameters, "since", 0));
   Answer answer;
   answer.type = kBinary;
   if (bytes)
@@ -161,8 +161,7 @@ Answer Answers::frame(const Parameters& parameters, const std::string&) {
 }
 
 Answer Answers::probe(const Parameters& parameters, const std::string&) {
-  const ProbedPixel pixel =
-      source_.probe(coordinate(parameters, "x"), coordinate(parameters, "y"));
+  const ProbedPixel pixel = source_.probe(coordinate(parameters, "x"), coordinate(parameters, "y"));
   return json_answer({{"value", json_of(pixel.value)},
                       {"error", json_of(pixel.standard_error)},
                       {"samples", pixel.samples}});
@@ -180,9 +179,8 @@ Answer Answers::compare(const Parameters& parameters, const std::string&) {
 }
 
 Answer Answers::heat(const Parameters& parameters, const std::string&) {
-  const std::vector<uint8_t> png =
-      heat_png(*comparison(text(parameters, "with")), source_.colors(), text(parameters, "kind"),
-               source_.state().exposure);
+  const std::vector<uint8_t> png = heat_png(*comparison(text(parameters, "with")), source_.colors(),
+                                            text(parameters, "kind"), source_.state().exposure);
   Answer answer;
   answer.type = "image/png";
   answer.body.assign(png.begin(), png.end());
@@ -279,8 +277,7 @@ Answer Answers::upload(const Parameters& parameters, const std::string& body) {
     if (head.window.area() > kMaxUploadedPixels)
       throw UsageError(fmt::format("{}: the picture is too large, expected at most {} pixels", name,
                                    kMaxUploadedPixels));
-    return json_answer(
-        {{"id", comparisons_.add_file(color_picture(read_picture(path)), name)}});
+    return json_answer({{"id", comparisons_.add_file(color_picture(read_picture(path)), name)}});
   } catch (const IoError&) {
     throw UsageError(name + ": this is no picture that can be read, expected an EXR");
   }

@@ -126,9 +126,8 @@ std::string encode_frame(const FrameInfo& info, std::span<const FrameLayerPtr> l
   const TileGrid grid{info.window.width(), info.window.height()};
   std::vector<size_t> tiles;
   for (size_t tile = 0; tile < grid.count(); ++tile)
-    if (std::ranges::any_of(layers, [&](const FrameLayerPtr& layer) {
-          return layer->tile_versions[tile] > since;
-        }))
+    if (std::ranges::any_of(
+            layers, [&](const FrameLayerPtr& layer) { return layer->tile_versions[tile] > since; }))
       tiles.push_back(tile);
 
   nlohmann::ordered_json header{

@@ -34,8 +34,8 @@ uint64_t FrameStore::update(const Film& film, FrameInfo info, double now) {
   std::map<std::string, FrameLayerPtr> made;
   for (const FilmLayer& layer : film_layers(film, wanted(now))) {
     const auto old = before.find(layer.name);
-    made[layer.name] = frame_layer(film, layer, info.version,
-                                   old == before.end() ? nullptr : old->second.get());
+    made[layer.name] =
+        frame_layer(film, layer, info.version, old == before.end() ? nullptr : old->second.get());
   }
   const std::lock_guard lock(mutex_);
   info_ = info;
@@ -43,8 +43,7 @@ uint64_t FrameStore::update(const Film& film, FrameInfo info, double now) {
   return info_.version;
 }
 
-void FrameStore::add(const Film& film, uint64_t generation,
-                     const std::vector<std::string>& names) {
+void FrameStore::add(const Film& film, uint64_t generation, const std::vector<std::string>& names) {
   std::vector<std::string> missing;
   uint64_t version;
   {

@@ -30,10 +30,14 @@ Json path_json(const InspectedPath& path) {
   for (const Vec2f& pixel : path.pixels)
     pixels.push_back(std::isfinite(pixel.x) && std::isfinite(pixel.y) ? Json{pixel.x, pixel.y}
                                                                       : Json(nullptr));
-  return {{"word", path.word},           {"route", path.route},
-          {"light", path.light},         {"technique", path.technique},
-          {"value", json_of(path.value)}, {"share", path.share},
-          {"share_error", path.share_error}, {"points", points},
+  return {{"word", path.word},
+          {"route", path.route},
+          {"light", path.light},
+          {"technique", path.technique},
+          {"value", json_of(path.value)},
+          {"share", path.share},
+          {"share_error", path.share_error},
+          {"points", points},
           {"pixels", pixels}};
 }
 

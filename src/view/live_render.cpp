@@ -60,8 +60,7 @@ RenderRequest preview_of(const RenderRequest& request, const FilmDescription& fu
 
 }  // namespace
 
-LiveRender::LiveRender(RenderRequest request)
-    : preview_edge_(kFirstPreviewEdge) {
+LiveRender::LiveRender(RenderRequest request) : preview_edge_(kFirstPreviewEdge) {
   state_.name = request.scene;
   edits_.request = std::move(request);
   state_.generation = edits_.generation;
@@ -150,7 +149,8 @@ std::optional<std::string> LiveRender::frame(const std::vector<std::string>& lay
                                              uint64_t generation, uint64_t since) {
   if (!frames_.want(layers, steady_seconds()) && frames_.version() > 0)
     at_rest([&](const RenderAtRest& rest) {
-      if (rest.render.film().can_be_shown()) frames_.add(rest.render.film(), rest.generation, layers);
+      if (rest.render.film().can_be_shown())
+        frames_.add(rest.render.film(), rest.generation, layers);
     });
   return frames_.frame(layers, generation, since);
 }
@@ -265,7 +265,8 @@ void LiveRender::render(const Edits& edits) {
   has_rendered_ = true;
   RenderWarnings warnings;
   std::vector<std::string> texts;
-  warnings.input = warnings.output = [&texts](const std::string& warning) { texts.push_back(warning); };
+  warnings.input =
+      warnings.output = [&texts](const std::string& warning) { texts.push_back(warning); };
   Render render(request, *loaded_, warnings);
   publish([&](LiveState& state) {
     describe(render, *loaded_, edits.is_moving, &state);
@@ -297,8 +298,8 @@ void LiveRender::connect(Render& render, const Edits& edits) {
       // The next preview takes about the wanted time.
       const double took = std::max(1e-3, steady_seconds() - begin);
       const double edge = preview_edge_ * std::sqrt(kPreviewSeconds / took);
-      preview_edge_ = std::clamp(edge, std::max(kMinPreviewEdge, preview_edge_ / 2),
-                                 preview_edge_ * 1.25);
+      preview_edge_ =
+          std::clamp(edge, std::max(kMinPreviewEdge, preview_edge_ / 2), preview_edge_ * 1.25);
     }
     is_first = false;
     FrameInfo info;

@@ -101,7 +101,7 @@ class LiveRender final : public ViewSource {
   // Owned by the render's thread.
   std::optional<LoadedScene> loaded_;
   std::optional<CameraDescription> own_camera_;  ///< of the scene's file
-  double preview_edge_ = 0;     ///< pixels of the longer side while the camera moves
+  double preview_edge_ = 0;  ///< pixels of the longer side while the camera moves
   double paused_seconds_ = 0;
   bool has_rendered_ = false;  ///< false until the first render of the view
   std::thread thread_;

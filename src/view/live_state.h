@@ -36,10 +36,10 @@ struct LiveSettings {
 };
 
 struct LiveState {
-  std::string name;           ///< of the scene or picture
-  bool is_scene = true;       ///< false: a picture, nothing renders
+  std::string name;      ///< of the scene or picture
+  bool is_scene = true;  ///< false: a picture, nothing renders
   LiveStatus status = LiveStatus::kLoading;
-  std::string message;        ///< why it failed, or why it is done
+  std::string message;  ///< why it failed, or why it is done
   std::vector<std::string> warnings, notes, report;
   uint64_t generation = 0;    ///< counts edits
   uint64_t version = 0;       ///< counts pictures

@@ -59,9 +59,7 @@ struct ViewServer::Impl {
   std::thread thread;
 
   Impl(ViewSource& view, Comparisons& others, const ServerSettings& settings)
-      : source(view),
-        comparisons(others),
-        answers(view, others, settings.save_directory) {
+      : source(view), comparisons(others), answers(view, others, settings.save_directory) {
     server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
     server.set_keep_alive_max_count(kRequestsOfConnection);
     server.set_keep_alive_timeout(kIdleSeconds);
@@ -86,9 +84,9 @@ struct ViewServer::Impl {
     });
     server.set_error_handler([](const Request&, Response& response) {
       if (response.body.empty())
-        put(response, failure(response.status, response.status == 404
-                                                   ? "there is nothing of this name here"
-                                                   : "the request is not valid"));
+        put(response,
+            failure(response.status, response.status == 404 ? "there is nothing of this name here"
+                                                            : "the request is not valid"));
     });
     add_page();
     add_requests();
@@ -249,8 +247,7 @@ struct ViewServer::Impl {
   };
 };
 
-ViewServer::ViewServer(ViewSource& source, Comparisons& comparisons,
-                       const ServerSettings& settings)
+ViewServer::ViewServer(ViewSource& source, Comparisons& comparisons, const ServerSettings& settings)
     : impl_(std::make_unique<Impl>(source, comparisons, settings)) {}
 ViewServer::~ViewServer() = default;
 

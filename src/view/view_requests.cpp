@@ -89,8 +89,8 @@ class Members {
   /// Throws UsageError if a member was not read.
   void finish() const {
     if (!json_.empty())
-      throw UsageError(fmt::format("the request has a member '{}' that is not known",
-                                   json_.begin().key()));
+      throw UsageError(
+          fmt::format("the request has a member '{}' that is not known", json_.begin().key()));
   }
 
  private:
@@ -190,8 +190,8 @@ RenderChange parse_render_change(std::string_view body) {
   if (const auto size = members.numbers<2>("resolution", 1, kMaxEdge))
     change.resolution = {static_cast<int>((*size)[0]), static_cast<int>((*size)[1])};
   change.crop = members.numbers<4>("crop", 0, 1);
-  if (change.crop && ((*change.crop)[0] >= (*change.crop)[1] ||
-                      (*change.crop)[2] >= (*change.crop)[3]))
+  if (change.crop &&
+      ((*change.crop)[0] >= (*change.crop)[1] || (*change.crop)[2] >= (*change.crop)[3]))
     throw UsageError("crop: expected x0 < x1 and y0 < y1");
   members.finish();
   return change;

@@ -67,8 +67,8 @@ TEST(Frame, TilesHoldTheirRowsOneAfterAnother) {
   EXPECT_EQ(frame.header["window"], (std::vector<int>{0, 0, 70, 3}));
   ASSERT_EQ(frame.values.size(), 70u * 3 * 3);
   const float scale = frame.header["layers"][0]["scale"];
-  EXPECT_EQ(frame.values[3 * 5] * scale, 5);               // first row of the first tile
-  EXPECT_EQ(frame.values[3 * (2 * 64 + 7)] * scale, 7);    // third row
+  EXPECT_EQ(frame.values[3 * 5] * scale, 5);             // first row of the first tile
+  EXPECT_EQ(frame.values[3 * (2 * 64 + 7)] * scale, 7);  // third row
   EXPECT_EQ(frame.values[3 * (2 * 64 + 7) + 1] * scale, 2);
   EXPECT_EQ(frame.values[3 * (3 * 64 + 6 + 1)] * scale, 65);  // second row of the second tile
 }

@@ -119,9 +119,8 @@ TEST_F(Live, AMoveGivesPreviewsAndThenTheFullPicture) {
   change.is_moving = false;
   const uint64_t resting = live.move_camera(change);
   EXPECT_GT(resting, moving);
-  EXPECT_TRUE(comes(live, [](const LiveState& s) {
-    return !s.is_preview && s.progress.passes_done > 0;
-  }));
+  EXPECT_TRUE(
+      comes(live, [](const LiveState& s) { return !s.is_preview && s.progress.passes_done > 0; }));
   EXPECT_EQ(live.state().camera.eye, Vec3d(1, 0, -4));
 }
 

@@ -79,17 +79,14 @@ class Server : public testing::Test {
     return header.substr(0, header.find(';'));
   }
   httplib::Headers of_browser() const { return {{"Cookie", cookie()}}; }
-  httplib::Headers of_page() const {
-    return {{"Cookie", cookie()}, {"Origin", "http://" + host_}};
-  }
+  httplib::Headers of_page() const { return {{"Cookie", cookie()}, {"Origin", "http://" + host_}}; }
 
   int status_of_get(const std::string& path, const httplib::Headers& headers) const {
     const auto answer = client().Get(path, headers);
     return answer ? answer->status : 0;
   }
   int status_of_post(const std::string& path, const httplib::Headers& headers,
-                     const std::string& body,
-                     const std::string& type = "application/json") const {
+                     const std::string& body, const std::string& type = "application/json") const {
     const auto answer = client().Post(path, headers, body, type);
     return answer ? answer->status : 0;
   }
@@ -203,9 +200,9 @@ TEST_F(Server, ComparesWithSnapshots) {
 TEST_F(Server, RefusesLongAndMalformedBodies) {
   EXPECT_EQ(status_of_post("/api/render", of_page(), std::string(65 << 10, ' ')), 413);
   EXPECT_EQ(status_of_post("/api/snapshot", of_page(), "not json"), 200);  // has no content
-  EXPECT_EQ(status_of_post("/api/upload?name=x.exr", of_page(), "no picture",
-                           "application/octet-stream"),
-            400);
+  EXPECT_EQ(
+      status_of_post("/api/upload?name=x.exr", of_page(), "no picture", "application/octet-stream"),
+      400);
   httplib::Headers headers = of_browser();
   headers.emplace("Range", "bytes=0-0,0-0,0-0");
   EXPECT_EQ(status_of_get("/", headers), 400);
@@ -236,8 +233,8 @@ TEST_F(Server, SurvivesAThousandReconnects) {
 }
 
 TEST_F(Server, ClosedTabsFreeTheirEvents) {
-  const std::string request = "GET /api/events HTTP/1.1\r\nHost: " + host_ +
-                              "\r\nCookie: " + cookie() + "\r\n\r\n";
+  const std::string request =
+      "GET /api/events HTTP/1.1\r\nHost: " + host_ + "\r\nCookie: " + cookie() + "\r\n\r\n";
   for (int i = 0; i < 40; ++i) {
     const int descriptor = connection();
     send_text(descriptor, request);
@@ -268,8 +265,8 @@ TEST_F(Server, HalfOpenConnectionsDoNotStopOthers) {
 TEST_F(Server, ASlowReaderDoesNotStopOthers) {
   source_.set_payload(size_t{64} << 20);
   const int descriptor = connection();
-  send_text(descriptor, "GET /api/frame HTTP/1.1\r\nHost: " + host_ + "\r\nCookie: " + cookie() +
-                            "\r\n\r\n");
+  send_text(descriptor,
+            "GET /api/frame HTTP/1.1\r\nHost: " + host_ + "\r\nCookie: " + cookie() + "\r\n\r\n");
   // Nothing is read.
   for (int i = 0; i < 20; ++i) EXPECT_EQ(status_of_get("/api/state", of_browser()), 200);
   ::close(descriptor);

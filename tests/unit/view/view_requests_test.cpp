@@ -20,8 +20,8 @@ std::string message_of(const std::function<void()>& body) {
 }
 
 TEST(ViewRequests, ACameraChangesInWhatItSays) {
-  const CameraChange change = parse_camera_change(
-      R"({"eye":[1,2,3],"fov":40.5,"shutter":[0,0.5],"moving":true})");
+  const CameraChange change =
+      parse_camera_change(R"({"eye":[1,2,3],"fov":40.5,"shutter":[0,0.5],"moving":true})");
   EXPECT_TRUE(change.is_moving);
   CameraPose pose;
   pose.target = {7, 8, 9};
@@ -70,8 +70,7 @@ TEST(ViewRequests, WrongRequestsSayWhatWasExpected) {
   for (const auto& [body, message] : camera)
     EXPECT_EQ(message_of([body = body] { parse_camera_change(body); }), message);
   const std::pair<const char*, const char*> render[] = {
-      {R"({"action":"stop"})",
-       "action: 'stop' is not valid, expected pause, resume or restart"},
+      {R"({"action":"stop"})", "action: 'stop' is not valid, expected pause, resume or restart"},
       {R"({"layers":"none"})", "layers: 'none' is not valid, expected routes, lights or both"},
       {R"({"seed":-1})", "seed: expected a whole number from 0"},
       {R"({"seed":1.5})", "seed: expected a whole number from 0"},
