@@ -1,11 +1,15 @@
 // `nephroid view`: serves a page that shows a scene while it renders.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <thread>
 
 #include "apps/commands.h"
@@ -14,12 +18,12 @@
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "film/image_io.h"
-#include "film/state_file.h"
+#include "session/checkpoint/checkpoint.h"
 #include "session/checkpoint/picture_description.h"
-#include "session/film_of_scene.h"
 #include "view/live_render.h"
 #include "view/picture_source.h"
 #include "view/server.h"
+#include "view/view_checkpoint.h"
 #include "view/watched_files.h"
 
 extern char** environ;  // NOLINT: POSIX has no header for it
@@ -30,18 +34,22 @@ namespace {
 constexpr std::chrono::milliseconds kPoll{50};
 constexpr int kPollsPerLook = 20;  ///< between two looks at the scene's files
 
-/// Opens the page in the user's browser, if there is a screen.
+/// Opens the page in the user's browser, if there is a screen. Ctrl-C does not reach the browser.
 void open_browser(const std::string& url) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
   std::string program = "xdg-open", argument = url;
   char* arguments[] = {program.data(), argument.data(), nullptr};
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", 01, 0);
-  posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", 01, 0);
+  for (const int output : {STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&actions, output, "/dev/null", O_WRONLY, 0);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
   pid_t child = 0;
-  if (posix_spawnp(&child, "xdg-open", &actions, nullptr, arguments, environ) != 0)
+  if (posix_spawnp(&child, "xdg-open", &actions, &attributes, arguments, environ) != 0)
     say("there is no xdg-open: open the address yourself\n");
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
 }
 
@@ -57,38 +65,65 @@ void check_directory(const std::string& path) {
     throw IoError(path + ": is not a directory, expected one for --save-to");
 }
 
+/// Writes checkpoints of a view now and then, so that a killed one loses little.
+class Checkpoints {
+ public:
+  Checkpoints(LiveRender* live, const std::string& output) : live_(live) {
+    if (live != nullptr && !output.empty()) checkpoint_.emplace(output);
+  }
+
+  /// They take less than 2 % of the time. An edited view is written at its end only.
+  void write_if_due() {
+    if (!checkpoint_ || Clock::now() < next_ || live_->is_edited()) return;
+    const Clock::time_point begin = Clock::now();
+    write();
+    const auto cost = Clock::now() - begin;
+    next_ = Clock::now() + std::max<Clock::duration>(kInterval, kIdlePerWrite * cost);
+  }
+
+  void write_last() {
+    if (checkpoint_) say(write() + "\n");
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::seconds kInterval{60};
+  static constexpr int kIdlePerWrite = 50;
+
+  std::string write() {
+    try {
+      return checkpoint_->write(*live_);
+    } catch (const IoError& error) {
+      print_warning(error.what());
+      return "the picture is lost";
+    }
+  }
+
+  LiveRender* live_;
+  std::optional<ViewCheckpoint> checkpoint_;
+  Clock::time_point next_ = Clock::now() + kInterval;
+};
+
 /// Waits for a signal; the scene is read again when its files change.
-void wait_for_end(LiveRender* live, const SignalFlags& signals) {
+void wait_for_end(LiveRender* live, Checkpoints& checkpoints, const SignalFlags& signals) {
   WatchedFiles watched;
   for (int poll = 0; signals.stop.load() == 0; ++poll) {
     std::this_thread::sleep_for(kPoll);
-    if (live != nullptr && poll % kPollsPerLook == 0 && watched.have_changed(live->files()))
-      live->reload();
+    if (live == nullptr || poll % kPollsPerLook != 0) continue;
+    if (watched.have_changed(live->files())) live->reload();
+    checkpoints.write_if_due();
   }
 }
 
-/// Writes the picture, and its state if `render --resume` or another view can go on from it: not
-/// with a camera that the scene's file does not have.
-void leave_checkpoint(LiveRender& live, const std::string& output) {
-  try {
-    live.at_rest([&](const RenderAtRest& rest) {
-      if (rest.is_preview || !rest.render.film().can_be_shown()) return;
-      rest.render.save(output, rest.has_own_camera);
-      say(rest.has_own_camera
-              ? fmt::format("wrote {} and {}, with which --resume goes on\n", output,
-                            state_path_beside(output))
-              : fmt::format("wrote {}; its camera is not the scene's, so it cannot be resumed\n",
-                            output));
-    });
-  } catch (const UsageError&) {
-    // Nothing was rendered.
-  }
-}
-
-int serve(ViewSource& source, const ViewCommand& command, SignalListener& signals) {
+int serve(ViewSource& source, const ViewCommand& command, const std::string& output,
+          SignalListener& signals) {
   Comparisons comparisons;
   add_comparisons(command.comparisons, comparisons);
-  ViewServer server(source, comparisons, {command.address, command.port, command.save_directory});
+  ServerSettings settings{command.address, command.port, command.save_directory, {}};
+  settings.on_new_url = [](const std::string& url) {
+    say(fmt::format("for another browser: {}\n", url));
+  };
+  ViewServer server(source, comparisons, settings);
   if (command.address != "127.0.0.1" && command.address != "::1")
     print_warning(fmt::format(
         "--listen {}: whoever can reach this address and knows the token sees the scene; nothing "
@@ -97,8 +132,12 @@ int serve(ViewSource& source, const ViewCommand& command, SignalListener& signal
   signals.note_stops(false);
   say(fmt::format("{}\n", server.url()));
   if (command.opens_browser) open_browser(server.url());
-  wait_for_end(source.live(), signals.flags());
-  return 0;
+  Checkpoints checkpoints(source.live(), output);
+  wait_for_end(source.live(), checkpoints, signals.flags());
+  // Reading a scene cannot be interrupted, and there is nothing to lose yet.
+  if (source.state().status == LiveStatus::kLoading) std::_Exit(0);
+  checkpoints.write_last();
+  return static_cast<int>(ExitStatus::kDone);
 }
 
 }  // namespace
@@ -108,17 +147,15 @@ int run_view(const ViewCommand& command, const RenderCommand& render) {
   const ThreadLimit threads(render.threads);
   limit_image_threads(render.threads);
   check_directory(command.save_directory);
+  if (render.resume && render.output.empty())
+    throw UsageError("--resume: expected --output, the picture to go on from");
   if (is_picture(render.scene)) {
     PictureSource picture(render.scene);
-    return serve(picture, command, signals);
+    return serve(picture, command, {}, signals);
   }
-  RenderRequest request = request_of(render);
-  const std::string output = render.output;
-  if (!output.empty()) check_picture_can_be_written(output);
-  LiveRender live(std::move(request));
-  const int status = serve(live, command, signals);
-  if (!output.empty()) leave_checkpoint(live, output);
-  return status;
+  if (!render.output.empty()) check_picture_can_be_written(render.output);
+  LiveRender live(request_of(render));
+  return serve(live, command, render.output, signals);
 }
 
 }  // namespace nephroid

@@ -27,6 +27,7 @@ constexpr std::array<std::string_view, 5> kFeatureLayers = {"albedo", "Albedo", 
 constexpr std::array<std::string_view, 6> kFeatureChannels = {"Z",    "u",    "v",
                                                               "dzdx", "dzdy", "samples"};
 constexpr int64_t kRowsPerChunk = 16;
+constexpr float kMaxGain = 1e6f;
 
 /// A layer that is added, and its gain.
 struct Term {
@@ -224,7 +225,7 @@ MixGain parse_mix_gain(const std::string& option, const std::string& text) {
   std::vector<float> numbers;
   std::istringstream words(text.substr(equals + 1) + ",");
   for (std::string word; std::getline(words, word, ',');)
-    numbers.push_back(parse_float(option + " " + name, word, 0, HUGE_VAL, false));
+    numbers.push_back(parse_float(option + " " + name, word, 0, kMaxGain, false));
   if (numbers.size() != 1 && numbers.size() != 3)
     throw UsageError(fmt::format(
         "{} {}: {} numbers are given, expected one gain, or three for red, green and blue", option,

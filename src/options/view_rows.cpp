@@ -35,24 +35,28 @@ const OptionDescription kOwnRows[] = {
      [](CommandLine& l, const std::string&) { l.view.opens_browser = false; }},
 };
 
-/// Options of `render` that mean the same here.
-constexpr std::string_view kSharedNames[] = {
-    "--output", "--resume",        "--aov",  "--layers",   "--integrator", "--routes",
-    "--route",  "--strict-routes", "-D",     "--outliers", "--seed",       "--time",
-    "--noise",  "--resolution",    "--crop", "--threads",  "--memory"};
+/// An option of `render` that means the same here.
+struct SharedOption {
+  std::string_view name;
+  bool is_rare;  ///< in --help-all only: the page can change it, or few need it
+};
+constexpr SharedOption kShared[] = {
+    {"--output", false},     {"--resume", false},     {"--aov", true},   {"--layers", false},
+    {"--integrator", false}, {"--routes", true},      {"--route", true}, {"--strict-routes", true},
+    {"-D", false},           {"--outliers", true},    {"--seed", true},  {"--time", true},
+    {"--noise", true},       {"--resolution", false}, {"--crop", true},  {"--threads", false},
+    {"--memory", true}};
 
 }  // namespace
 
 std::vector<OptionDescription> view_rows(std::span<const OptionDescription> table) {
   std::vector<OptionDescription> rows(std::begin(kOwnRows), std::end(kOwnRows));
   for (const OptionDescription& row : table) {
-    if (std::string_view(row.command) != "render" ||
-        std::ranges::find(kSharedNames, std::string_view(row.name)) == std::end(kSharedNames))
-      continue;
+    const auto shared = std::ranges::find(kShared, std::string_view(row.name), &SharedOption::name);
+    if (std::string_view(row.command) != "render" || shared == std::end(kShared)) continue;
     rows.push_back(row);
     rows.back().command = "view";
-    // What the sliders of the page need is not rare here.
-    if (std::string_view(row.name) == "--layers") rows.back().is_rare = false;
+    rows.back().is_rare = shared->is_rare;
   }
   const std::vector<OptionDescription> imports = import_rows("view");
   rows.insert(rows.end(), imports.begin(), imports.end());

@@ -72,9 +72,9 @@ class Inspector {
       found_.routes.push_back({layout.routes[r], film_.route_value(static_cast<int>(r), x, y)});
     for (size_t a = 0; a < layout.aovs.size(); ++a)
       found_.layers.push_back({layout.aovs[a], film_.aov_value(static_cast<int>(a), x, y)});
-    found_.samples = std::numeric_limits<uint64_t>::max();
+    found_.samples = 0;
     for (size_t g = 0; g < set.routes->groups().size(); ++g)
-      found_.samples = std::min(found_.samples, film_.estimates(static_cast<int>(g), x, y));
+      found_.samples = std::max(found_.samples, film_.estimates(static_cast<int>(g), x, y));
   }
 
   /// The estimators of the set that are wanted and can be recorded; they learn if needed.

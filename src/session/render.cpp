@@ -160,6 +160,7 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
   else if (const auto warning = warning_of_replacing(options.output, identity_))
     warn_of({*warning}, warnings_.output);
 
+  has_resumed_ = !options.begin_with.passes.empty() || options.begin_with.open_pass;
   session_.emplace(scene, set_, *film_, std::move(options));
   if (warnings_.output) session_->on_warning(warnings_.output);
 }

@@ -71,6 +71,8 @@ class Render {
 
   /// Writes what is rendered so far, see RenderSession. Throws IoError.
   void save(const std::string& path, bool with_state) { session_->save(path, with_state); }
+  /// True if it goes on from a saved render.
+  bool has_resumed() const { return has_resumed_; }
   /// Explains a pixel. Called after run() or from a callback. Throws UsageError.
   PixelInspection inspect(int x, int y);
   /// The report so far, see RenderSession.
@@ -88,6 +90,7 @@ class Render {
   const Scene& scene_;
   RenderWarnings warnings_;
   uint64_t seed_ = 0;
+  bool has_resumed_ = false;
   IntegratorChoice choice_;
   RoutePlan plan_;
   EstimatorSet set_;

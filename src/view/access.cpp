@@ -69,10 +69,18 @@ std::string cookie_value(std::string_view header, std::string_view name) {
 }
 
 Access::Access(const std::string& address, int port)
-    : address_(address), port_(port), token_(random_word()), cookie_(random_word()) {}
+    : address_(address), port_(port), cookie_(random_word()), token_(random_word()) {}
+
+bool Access::take_token(std::string_view token) {
+  const std::lock_guard lock(mutex_);
+  if (!equal_in_constant_time(token, token_)) return false;
+  token_ = random_word();
+  return true;
+}
 
 std::string Access::url() const {
   // A server that listens everywhere is here, too.
+  const std::lock_guard lock(mutex_);
   const bool is_everywhere = address_ == "0.0.0.0" || address_ == "::";
   return fmt::format("http://{}:{}/?token={}", is_everywhere ? "127.0.0.1" : in_url(address_),
                      port_, token_);

@@ -2,6 +2,7 @@
 // from the page itself (docs/adr/0040-the-view.md). It must not know the HTTP library.
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,15 +15,17 @@ bool equal_in_constant_time(std::string_view a, std::string_view b);
 /// The value of a cookie in a Cookie header; empty if it is not there.
 std::string cookie_value(std::string_view header, std::string_view name);
 
+/// Thread-safe.
 class Access {
  public:
   /// For a server at `address` and `port`. Draws token and cookie from the system's random numbers.
   /// Throws IoError if there are none.
   Access(const std::string& address, int port);
 
-  /// The address to open: "http://127.0.0.1:8080/?token=...".
+  /// The address to open: "http://127.0.0.1:8080/?token=...". It is of use once.
   std::string url() const;
-  bool accepts_token(std::string_view token) const { return equal_in_constant_time(token, token_); }
+  /// True if the token is that of url(), which then gets another one.
+  bool take_token(std::string_view token);
   /// True if a Cookie header has the cookie.
   bool accepts_cookie(std::string_view header) const;
   /// The Set-Cookie header of a browser that came with the token.
@@ -37,7 +40,9 @@ class Access {
  private:
   std::string address_;
   int port_;
-  std::string token_, cookie_;
+  std::string cookie_;
+  mutable std::mutex mutex_;
+  std::string token_;
 };
 
 }  // namespace nephroid

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <span>
@@ -11,6 +12,7 @@
 #include "film/film_output.h"
 #include "image/mix.h"
 #include "input/file_bytes.h"
+#include "input/scene_files.h"
 #include "input/scene_reader.h"
 #include "session/camera_edit.h"
 #include "session/camera_text.h"
@@ -25,7 +27,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int64_t kMaxUploadedPixels = int64_t{1} << 26;
+constexpr int64_t kMaxUploadedValues = int64_t{1} << 28;  ///< pixels times channels
+constexpr size_t kMaxLayers = 64;
 constexpr const char* kBinary = "application/octet-stream";
 
 Answer json_answer(const Json& json) {
@@ -69,6 +72,11 @@ std::vector<std::string> split(const std::string& list) {
   return parts;
 }
 
+bool has_repeats(std::vector<std::string> names) {
+  std::ranges::sort(names);
+  return std::ranges::adjacent_find(names) != names.end();
+}
+
 /// The last part of a name, for a file's name without surprises.
 std::string safe_stem(const std::string& name) {
   std::string stem = fs::path(name).stem().string();
@@ -90,6 +98,18 @@ fs::path free_path(const std::string& directory, const std::string& name) {
   return path;
 }
 
+/// Camera and film of the present view, without the rest of the scene.
+SceneDescription view_of(LiveRender& live) {
+  SceneDescription view;
+  live.at_rest([&view](const RenderAtRest& rest) {
+    view.camera = rest.loaded.description.camera;
+    view.film = rest.loaded.description.film;
+  });
+  const LiveSettings full = live.state().settings;
+  set_resolution(&view, full.width, full.height);
+  return view;
+}
+
 Answer text_answer(std::string body, const std::string& file_name) {
   Answer answer;
   answer.type = "text/plain; charset=utf-8";
@@ -108,11 +128,6 @@ Answer failure(int status, const std::string& message) {
 
 Answers::Answers(ViewSource& source, Comparisons& comparisons, std::string save_directory)
     : source_(source), comparisons_(comparisons), save_directory_(std::move(save_directory)) {}
-
-uint64_t Answers::wait_for_news(uint64_t seen, double seconds) const {
-  // Comparisons change seldom and by requests, which the page follows with one for the state.
-  return source_.wait_for_news(seen, seconds);
-}
 
 LiveRender& Answers::live() {
   if (LiveRender* live = source_.live()) return *live;
@@ -149,6 +164,8 @@ Answer Answers::frame(const Parameters& parameters, const std::string&) {
   if (!id.empty()) return comparison_frame(id);
   std::vector<std::string> layers = split(text(parameters, "layers"));
   if (layers.empty()) layers = {"picture"};
+  if (layers.size() > kMaxLayers || has_repeats(layers))
+    throw UsageError(fmt::format("layers: expected at most {} names, each once", kMaxLayers));
   auto bytes =
       source_.frame(layers, number(parameters, "generation", 0), number(parameters, "since", 0));
   Answer answer;
@@ -206,18 +223,8 @@ Answer Answers::deliver(const std::string& path, const std::string& name,
 Answer Answers::save(const Parameters& parameters, const std::string&) {
   const std::string kind = text(parameters, "kind");
   const std::string stem = safe_stem(source_.state().name);
-  if (kind == "camera" || kind == "scene") {
-    const fs::path name = source_.state().name;
-    if (kind == "scene" && !is_pbrt_scene(name.string()))
-      throw UsageError("only pbrt scenes can be included, expected one: nephroid convert makes it");
-    std::string body;
-    live().at_rest([&](const RenderAtRest& rest) {
-      const SceneDescription& scene = rest.loaded.description;
-      body = kind == "camera" ? camera_text(scene)
-                              : scene_text_with_camera(scene, name.filename().string());
-    });
-    return text_answer(std::move(body), kind == "camera" ? "" : stem + "-view.pbrt");
-  }
+  if (kind == "camera") return text_answer(camera_text(view_of(live())), "");
+  if (kind == "scene") return save_scene(stem + "-view.pbrt");
   if (kind != "exr" && kind != "png")
     throw UsageError("kind: '" + kind + "' is not valid, expected exr, png, scene or camera");
   const TemporaryDirectory directory;
@@ -228,6 +235,19 @@ Answer Answers::save(const Parameters& parameters, const std::string&) {
                   source_.state().exposure);
   if (kind == "png") return deliver(png_path_beside(exr), stem + ".png", "image/png");
   return deliver(exr, stem + ".exr", "image/x-exr");
+}
+
+Answer Answers::save_scene(const std::string& file_name) {
+  const fs::path scene = source_.state().name;
+  if (!is_pbrt_scene(scene.string()) || scene == kStandardInput)
+    throw UsageError(
+        "only a pbrt scene in a file can be included, expected one: nephroid convert makes it");
+  const std::string text = scene_text_with_camera(view_of(live()), scene.filename().string());
+  if (save_directory_.empty()) return text_answer(text, file_name);
+  const TemporaryDirectory directory;
+  const std::string path = directory.file(file_name);
+  write_file_atomically(path, std::as_bytes(std::span(text)));
+  return deliver(path, file_name, "text/plain");
 }
 
 Answer Answers::camera(const Parameters&, const std::string& body) {
@@ -252,8 +272,7 @@ Answer Answers::render(const Parameters&, const std::string& body) {
 Answer Answers::inspect(const Parameters&, const std::string& body) {
   const PixelRequest pixel = parse_pixel_request(body);
   PixelInspection inspection;
-  live().at_rest([&](const RenderAtRest& rest) {
-    if (rest.is_preview) throw UsageError("the camera is moving, wait for the full picture");
+  live().with_picture([&](const RenderAtRest& rest) {
     check_pixel(pixel.x, pixel.y, rest.render.film().bounds());
     inspection = rest.render.inspect(pixel.x, pixel.y);
   });
@@ -274,9 +293,10 @@ Answer Answers::upload(const Parameters& parameters, const std::string& body) {
   const std::string name = text(parameters, "name");
   try {
     const PictureHead head = read_picture_head(path);
-    if (head.window.area() > kMaxUploadedPixels)
-      throw UsageError(fmt::format("{}: the picture is too large, expected at most {} pixels", name,
-                                   kMaxUploadedPixels));
+    if (head.window.area() * static_cast<int64_t>(head.channels.size()) > kMaxUploadedValues)
+      throw UsageError(
+          fmt::format("{}: the picture is too large, expected at most {} pixels times channels",
+                      name, kMaxUploadedValues));
     return json_answer({{"id", comparisons_.add_file(color_picture(read_picture(path)), name)}});
   } catch (const IoError&) {
     throw UsageError(name + ": this is no picture that can be read, expected an EXR");

@@ -2,7 +2,6 @@
 // thread.
 #pragma once
 
-#include <atomic>
 #include <map>
 #include <string>
 
@@ -31,9 +30,6 @@ class Answers {
   /// Keeps references. `save_directory`: see ServerSettings.
   Answers(ViewSource& source, Comparisons& comparisons, std::string save_directory);
 
-  /// As ViewSource::wait_for_news, for changes of the comparisons, too.
-  uint64_t wait_for_news(uint64_t seen, double seconds) const;
-
   Answer state(const Parameters& parameters, const std::string& body);
   Answer frame(const Parameters& parameters, const std::string& body);
   Answer probe(const Parameters& parameters, const std::string& body);
@@ -54,13 +50,13 @@ class Answers {
   /// The comparison that a request names; throws UsageError if there is none.
   std::shared_ptr<const Picture> comparison(const std::string& id) const;
   Answer comparison_frame(const std::string& id) const;
+  Answer save_scene(const std::string& file_name);
   /// Sends a file as a download, or moves it to the directory of saves.
   Answer deliver(const std::string& path, const std::string& name, const std::string& type) const;
 
   ViewSource& source_;
   Comparisons& comparisons_;
   const std::string save_directory_;
-  std::atomic<uint64_t> comparison_news_{0};
 };
 
 }  // namespace nephroid

@@ -80,7 +80,6 @@ void describe(const Render& render, const LoadedScene& loaded, bool is_preview, 
   state->why_mix_is_inexact = why_mix_is_inexact(film);
   state->notes = render.notes();
   state->report.clear();
-  if (state->warnings.empty()) state->warnings = loaded.warnings;
   state->is_mirrored = loaded.scene->camera->camera_to_world(0).m.determinant() < 0;
   state->camera_type = loaded.description.camera ? loaded.description.camera->type : "perspective";
 }
@@ -96,9 +95,9 @@ LiveSettings settings_of(const RenderRequest& request, const Render& render, con
   settings.noise_target = request.options.noise_target;
   settings.width = full.width;
   settings.height = full.height;
-  if (request.overrides.has_crop)
-    std::copy(std::begin(request.overrides.crop), std::end(request.overrides.crop),
-              std::begin(settings.crop));
+  const double crop[4] = {1.0 * full.crop_x0 / full.width, 1.0 * full.crop_x1 / full.width,
+                          1.0 * full.crop_y0 / full.height, 1.0 * full.crop_y1 / full.height};
+  std::copy(std::begin(crop), std::end(crop), std::begin(settings.crop));
   return settings;
 }
 

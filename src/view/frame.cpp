@@ -18,8 +18,11 @@ static_assert(std::endian::native == std::endian::little, "frames are little end
 constexpr uint32_t kFormatVersion = 1;
 constexpr int64_t kValuesPerChunk = 1 << 16;
 constexpr size_t kPayloadAlignment = 8;
-/// Halves reach 65504. Below 2^-14 they lose digits, so small values are scaled up.
+/// Halves reach 65504. Below 2^-14 they lose digits, so dim layers are scaled up. Bright ones are
+/// scaled down by at most kMaxScale, so that their dark parts keep digits; what is brighter still
+/// is clipped.
 constexpr float kLargestHalf = 65504, kLargestWanted = 32768, kSmallestWanted = 1.0f / 16;
+constexpr float kMaxScale = 64;
 
 /// The tiles of a window.
 struct TileGrid {
@@ -56,7 +59,12 @@ float scale_for(float max, float before) {
   if (!(max > 0)) return before;
   if (max <= kLargestHalf * before && max >= kSmallestWanted * before) return before;
   if (max <= kLargestWanted && max >= kSmallestWanted) return 1;
-  return std::exp2(std::ceil(std::log2(max)));
+  if (max < kSmallestWanted) return std::exp2(std::ceil(std::log2(max)));
+  return std::min(kMaxScale, std::exp2(std::ceil(std::log2(max / kLargestWanted))));
+}
+
+float clipped(float value) {
+  return std::isnan(value) ? 0 : std::clamp(value, -kLargestHalf, kLargestHalf);
 }
 
 std::vector<uint16_t> to_half(const std::vector<float>& values, float scale) {
@@ -64,9 +72,24 @@ std::vector<uint16_t> to_half(const std::vector<float>& values, float scale) {
   parallel_chunks(static_cast<int64_t>(values.size()), kValuesPerChunk,
                   [&](int64_t, int64_t begin, int64_t end) {
                     for (int64_t i = begin; i < end; ++i)
-                      halves[i] = Imath::half(values[i] / scale).bits();
+                      halves[i] = Imath::half(clipped(values[i] / scale)).bits();
                   });
   return halves;
+}
+
+/// Errors have no colour; all else with R, G and B is light or a colour.
+bool is_light(const FilmLayer& layer) {
+  return layer.channels == "RGB" && layer.name != "stderr";
+}
+
+/// Converts colours to linear sRGB, which pages show. Null is sRGB.
+void to_srgb(std::vector<float>& colors, const RgbColorSpace* space) {
+  if (space == nullptr || space->name() == "srgb") return;
+  const RgbColorSpace& srgb = RgbColorSpace::srgb();
+  for (size_t i = 0; i + 2 < colors.size(); i += 3) {
+    const Rgb color = srgb.from_xyz(space->to_xyz({colors[i], colors[i + 1], colors[i + 2]}));
+    for (int c = 0; c < 3; ++c) colors[i + static_cast<size_t>(c)] = color[c];
+  }
 }
 
 bool is_equal(const FrameLayer& a, const FrameLayer& b, const TileGrid& grid, size_t tile) {
@@ -81,7 +104,8 @@ bool is_equal(const FrameLayer& a, const FrameLayer& b, const TileGrid& grid, si
 
 FrameLayerPtr frame_layer(const Film& film, const FilmLayer& layer, uint64_t version,
                           const FrameLayer* before) {
-  const std::vector<float> values = layer_pixels(film, layer);
+  std::vector<float> values = layer_pixels(film, layer);
+  if (is_light(layer)) to_srgb(values, film.settings().color_space);
   auto frame = std::make_shared<FrameLayer>();
   frame->name = layer.name;
   frame->channels = layer.channels;
@@ -112,6 +136,7 @@ FrameLayerPtr frame_layer(const Picture& picture, const std::string& name,
   for (size_t i = 0; i < pixels; ++i)
     for (const size_t channel : channels)
       values.push_back(picture.pixels[i * picture.channels.size() + channel]);
+  if (letters == "RGB" && name != "stderr") to_srgb(values, picture.color_space);
   auto frame = std::make_shared<FrameLayer>();
   frame->name = name;
   frame->channels = letters;

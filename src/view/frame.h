@@ -17,7 +17,8 @@ namespace nephroid {
 /// The edge of a tile in pixels; those at the right and lower edge of a picture are smaller.
 inline constexpr int kTileSize = 64;
 
-/// A layer in half floats: value = half * scale, rows from the top, channels interleaved.
+/// A layer in half floats: value = half * scale, rows from the top, channels interleaved. Colours
+/// are linear sRGB.
 struct FrameLayer {
   std::string name;
   std::string channels;  ///< a letter for each channel

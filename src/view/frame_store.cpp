@@ -11,9 +11,7 @@ constexpr const char* kPictureLayer = "picture";
 
 std::vector<std::string> FrameStore::wanted(double now) {
   const std::lock_guard lock(mutex_);
-  std::erase_if(wanted_, [now](const auto& entry) {
-    return entry.first != kPictureLayer && now - entry.second > kSecondsOfInterest;
-  });
+  forget_old_wishes(now);
   wanted_.try_emplace(kPictureLayer, now);
   std::vector<std::string> names;
   for (const auto& entry : wanted_) names.push_back(entry.first);
@@ -40,21 +38,22 @@ uint64_t FrameStore::update(const Film& film, FrameInfo info, double now) {
   const std::lock_guard lock(mutex_);
   info_ = info;
   layers_ = std::move(made);
+  absent_.clear();
   return info_.version;
 }
 
-void FrameStore::add(const Film& film, uint64_t generation, const std::vector<std::string>& names) {
+void FrameStore::add(const Film* film, uint64_t generation, const std::vector<std::string>& names) {
   std::vector<std::string> missing;
-  uint64_t version;
+  uint64_t version = 0;
   {
     const std::lock_guard lock(mutex_);
-    if (generation != info_.generation) return;
     version = info_.version;
     for (const std::string& name : names)
-      if (!layers_.contains(name)) missing.push_back(name);
+      if (!layers_.contains(name) && absent_.insert(name).second) missing.push_back(name);
+    if (film == nullptr || generation != info_.generation) return;
   }
-  for (const FilmLayer& layer : film_layers(film, missing)) {
-    FrameLayerPtr made = frame_layer(film, layer, version, nullptr);
+  for (const FilmLayer& layer : film_layers(*film, missing)) {
+    FrameLayerPtr made = frame_layer(*film, layer, version, nullptr);
     const std::lock_guard lock(mutex_);
     layers_[layer.name] = std::move(made);
   }
@@ -62,12 +61,19 @@ void FrameStore::add(const Film& film, uint64_t generation, const std::vector<st
 
 bool FrameStore::want(const std::vector<std::string>& layers, double now) {
   const std::lock_guard lock(mutex_);
+  forget_old_wishes(now);
   bool has_all = true;
   for (const std::string& name : layers) {
     wanted_[name] = now;
-    has_all = has_all && layers_.contains(name);
+    has_all = has_all && (layers_.contains(name) || absent_.contains(name));
   }
   return has_all;
+}
+
+void FrameStore::forget_old_wishes(double now) {
+  std::erase_if(wanted_, [now](const auto& entry) {
+    return entry.first != kPictureLayer && now - entry.second > kSecondsOfInterest;
+  });
 }
 
 std::optional<std::string> FrameStore::frame(const std::vector<std::string>& names,

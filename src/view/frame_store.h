@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,12 @@ class FrameStore {
   /// Makes the wanted layers of a film anew. `info` has the generation; version and film's
   /// properties are set here. Returns the version.
   uint64_t update(const Film& film, FrameInfo info, double now);
-  /// Makes those of `layers` that are not there. Does nothing for another generation than that of
-  /// the last update().
-  void add(const Film& film, uint64_t generation, const std::vector<std::string>& layers);
+  /// Makes those of `layers` that are not there, as far as the film has them. Nothing is made
+  /// without a film, or for another generation than that of the last update(); then want() does not
+  /// ask for them again before the next one.
+  void add(const Film* film, uint64_t generation, const std::vector<std::string>& layers);
 
-  /// Notes that these layers are wanted. True if the newest frame has all of them.
+  /// Notes that these layers are wanted. True if the newest frame has all of them that it can have.
   bool want(const std::vector<std::string>& layers, double now);
   /// The bytes of a frame (encode_frame); empty if nothing is newer than version `since` of
   /// `generation`. Layers that the film does not have are left out.
@@ -31,11 +33,14 @@ class FrameStore {
 
  private:
   std::vector<std::string> wanted(double now);
+  /// The lock is held.
+  void forget_old_wishes(double now);
 
   mutable std::mutex mutex_;
   FrameInfo info_;
   std::map<std::string, FrameLayerPtr> layers_;  ///< by name
   std::map<std::string, double> wanted_;         ///< layer: time of the last request
+  std::set<std::string> absent_;                 ///< layers that the newest frame cannot have
 };
 
 }  // namespace nephroid

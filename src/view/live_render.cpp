@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "input/scene_files.h"
 #include "integrator/presets/integrator_table.h"
+#include "integrator/presets/route_presets.h"
 #include "scene/scene_view.h"
 #include "view/comparisons.h"
 #include "view/describe_render.h"
@@ -49,6 +50,17 @@ RenderRequest preview_of(const RenderRequest& request, const FilmDescription& fu
   const double scale = std::min(1.0, edge / std::max(full.width, full.height));
   preview.overrides.width = std::max(1, static_cast<int>(std::lround(full.width * scale)));
   preview.overrides.height = std::max(1, static_cast<int>(std::lround(full.height * scale)));
+  // The crop of the full picture, whichever way it was given.
+  preview.overrides.has_crop = true;
+  const int crop[4] = {full.crop_x0, full.crop_x1, full.crop_y0, full.crop_y1};
+  for (int i = 0; i < 4; ++i) {
+    const int full_edge = i < 2 ? full.width : full.height;
+    const int edge_now = i < 2 ? preview.overrides.width : preview.overrides.height;
+    const double at = 1.0 * crop[i] / full_edge * edge_now;
+    // Rounded outwards, so at least one pixel is left.
+    const double pixel = i % 2 == 0 ? std::floor(at) : std::ceil(at);
+    preview.overrides.crop[i] = static_cast<float>(pixel / edge_now);
+  }
   preview.routes = {};
   preview.routes.integrator = "path";
   preview.reject_outliers = false;
@@ -89,6 +101,11 @@ uint64_t LiveRender::wait_for_news(uint64_t seen, double longest) const {
   return news_;
 }
 
+bool LiveRender::is_edited() const {
+  const std::lock_guard lock(mutex_);
+  return edits_.is_edited;
+}
+
 std::vector<std::string> LiveRender::files() const {
   const std::lock_guard lock(mutex_);
   return files_;
@@ -110,18 +127,24 @@ uint64_t LiveRender::move_camera(const CameraChange& change) {
   set_camera(&trial, pose);  // throws for a pose that is none
   state_.camera = pose;
   edits_.camera = std::move(pose);
+  edits_.is_edited = true;
   edits_.is_moving = change.is_moving;
   return note_edit();
 }
 
 uint64_t LiveRender::change(const RenderChange& change) {
   if (change.integrator) plan_of_integrator(*change.integrator);  // throws for an unknown name
+  // On the command line it may be a file, too; the page cannot ask for files.
+  if (change.routes && !change.routes->empty() && !route_preset(*change.routes))
+    throw UsageError("routes: '" + *change.routes + "' is not a preset");
   const std::lock_guard lock(mutex_);
   if (change.begins_anew()) {
     apply(change, &edits_.request);
+    edits_.is_edited = edits_.is_edited || change.action != RenderAction::kRestart;
     edits_.is_moving = false;
     return note_edit();
   }
+  if (change.action == RenderAction::kNone) throw UsageError("the request changes nothing");
   is_paused_ = change.action == RenderAction::kPause;
   signals_.write = true;
   changed_.notify_all();
@@ -136,6 +159,7 @@ void LiveRender::reload() {
 }
 
 void LiveRender::at_rest(std::function<void(const RenderAtRest&)> run) {
+  if (state().status == LiveStatus::kLoading) throw UsageError("the scene is being read");
   const auto ticket = tasks_.add(std::move(run));
   {
     const std::lock_guard lock(mutex_);
@@ -147,10 +171,11 @@ void LiveRender::at_rest(std::function<void(const RenderAtRest&)> run) {
 
 std::optional<std::string> LiveRender::frame(const std::vector<std::string>& layers,
                                              uint64_t generation, uint64_t since) {
-  if (!frames_.want(layers, steady_seconds()) && frames_.version() > 0)
+  if (frames_.version() == 0) return std::nullopt;
+  if (!frames_.want(layers, steady_seconds()) && state().status != LiveStatus::kFailed)
     at_rest([&](const RenderAtRest& rest) {
-      if (rest.render.film().can_be_shown())
-        frames_.add(rest.render.film(), rest.generation, layers);
+      const bool has_pixels = rest.render.film().can_be_shown();
+      frames_.add(has_pixels ? &rest.render.film() : nullptr, rest.generation, layers);
     });
   return frames_.frame(layers, generation, since);
 }
@@ -178,14 +203,20 @@ ProbedPixel LiveRender::probe(int x, int y) {
 
 Picture LiveRender::colors() {
   Picture picture;
-  at_rest([&](const RenderAtRest& rest) { picture = color_picture(rest.render.film()); });
+  with_picture([&](const RenderAtRest& rest) { picture = color_picture(rest.render.film()); });
   return picture;
 }
 
 void LiveRender::write(const std::string& exr_path) {
-  at_rest([&](const RenderAtRest& rest) {
+  with_picture([&](const RenderAtRest& rest) { rest.render.save(exr_path, false); });
+}
+
+void LiveRender::with_picture(std::function<void(const RenderAtRest&)> task) {
+  at_rest([&task](const RenderAtRest& rest) {
     if (rest.is_preview) throw UsageError("the camera is moving, wait for the full picture");
-    rest.render.save(exr_path, false);
+    if (!rest.render.film().can_be_shown())
+      throw UsageError("there is no picture yet, try again in a moment");
+    task(rest);
   });
 }
 
@@ -261,13 +292,13 @@ void LiveRender::render(const Edits& edits) {
     renew_camera(*loaded_->scene, loaded_->description, scene_overrides(request), diagnostics);
   }
 
-  request.resume = request.resume && !has_rendered_ && !edits.camera;
-  has_rendered_ = true;
+  request.resume = request.resume && !has_rendered_ && !edits.is_edited;
   RenderWarnings warnings;
   std::vector<std::string> texts;
   warnings.input =
       warnings.output = [&texts](const std::string& warning) { texts.push_back(warning); };
   Render render(request, *loaded_, warnings);
+  has_rendered_ = true;
   publish([&](LiveState& state) {
     describe(render, *loaded_, edits.is_moving, &state);
     state.status = LiveStatus::kRendering;
@@ -275,9 +306,9 @@ void LiveRender::render(const Edits& edits) {
     state.settings = settings_of(edits.request, render, *loaded_->scene, full);
     if (!edits.is_moving) state.warnings = texts;
   });
-  connect(render, edits);
+  connect(render, edits, std::max(kMinPreviewEdge, 1.0 * std::max(full.width, full.height)));
   const RenderResult result = render.run(signals_);
-  const RenderAtRest rest{render, *loaded_, edits.generation, edits.is_moving, !edits.camera};
+  const RenderAtRest rest{render, *loaded_, edits.generation, edits.is_moving, edits.is_edited};
   if (result.reason != StopReason::kSignal) {
     renew_report(render);
     publish([&](LiveState& state) {
@@ -288,35 +319,36 @@ void LiveRender::render(const Edits& edits) {
   rest_until_edited(rest);
 }
 
-void LiveRender::connect(Render& render, const Edits& edits) {
+void LiveRender::connect(Render& render, const Edits& edits, double longest_edge) {
   paused_seconds_ = 0;
   render.use_clock([this] { return seconds_without_pauses(); });
   const double begin = steady_seconds();
   bool is_first = true;
-  render.on_picture([this, &edits, is_first, begin](const ShownPicture& shown) mutable {
-    if (is_first && edits.is_moving) {
-      // The next preview takes about the wanted time.
-      const double took = std::max(1e-3, steady_seconds() - begin);
-      const double edge = preview_edge_ * std::sqrt(kPreviewSeconds / took);
-      preview_edge_ =
-          std::clamp(edge, std::max(kMinPreviewEdge, preview_edge_ / 2), preview_edge_ * 1.25);
-    }
-    is_first = false;
-    FrameInfo info;
-    info.generation = edits.generation;
-    info.is_preview = edits.is_moving;
-    info.seconds = shown.seconds;
-    info.passes = shown.passes;
-    const uint64_t version = frames_.update(shown.film, info, steady_seconds());
-    publish([version](LiveState& state) { state.version = version; });
-  });
+  render.on_picture(
+      [this, &edits, is_first, begin, longest_edge](const ShownPicture& shown) mutable {
+        if (is_first && edits.is_moving) {
+          // The next preview takes about the wanted time.
+          const double took = std::max(1e-3, steady_seconds() - begin);
+          const double edge = preview_edge_ * std::sqrt(kPreviewSeconds / took);
+          preview_edge_ =
+              std::clamp(edge, std::max(kMinPreviewEdge, preview_edge_ / 2), preview_edge_ * 1.25);
+        }
+        is_first = false;
+        FrameInfo info;
+        info.generation = edits.generation;
+        info.is_preview = edits.is_moving;
+        info.seconds = shown.seconds;
+        info.passes = shown.passes;
+        const uint64_t version = frames_.update(shown.film, info, steady_seconds());
+        publish([version](LiveState& state) { state.version = version; });
+      });
   render.on_progress([this, &render, &edits](const RenderProgress& progress) {
     publish([&](LiveState& state) { state.progress = progress; });
     if (!edits.is_moving && !progress.within_pass && std::has_single_bit(progress.passes_done))
       renew_report(render);
   });
   render.on_request([this, &render, &edits] {
-    const RenderAtRest rest{render, *loaded_, edits.generation, edits.is_moving, !edits.camera};
+    const RenderAtRest rest{render, *loaded_, edits.generation, edits.is_moving, edits.is_edited};
     tasks_.serve(rest);
     rest_while_paused(rest);
   });

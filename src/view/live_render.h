@@ -45,6 +45,8 @@ class LiveRender final : public ViewSource {
   /// Reads the scene's files again.
   void reload();
 
+  /// True if camera or settings are not those that the view began with.
+  bool is_edited() const;
   /// The scene's file and all files that it reads, as far as they are known.
   std::vector<std::string> files() const;
 
@@ -52,6 +54,8 @@ class LiveRender final : public ViewSource {
   /// Passes on its exceptions. Throws UsageError if nothing can be rendered, or if it takes longer
   /// than a few seconds until the task begins.
   void at_rest(std::function<void(const RenderAtRest&)> task);
+  /// The same for a task that needs the full picture. Throws UsageError if there is none.
+  void with_picture(std::function<void(const RenderAtRest&)> task);
   /// The pixel of a render, which may be a preview, at a pixel of the full picture.
   Vec2i pixel_of_render(const RenderAtRest& rest, int x, int y) const;
 
@@ -61,6 +65,7 @@ class LiveRender final : public ViewSource {
     RenderRequest request;
     std::optional<CameraPose> camera;  ///< empty: the scene's own
     bool is_moving = false;
+    bool is_edited = false;  ///< since the view began
     bool reloads = true;
     uint64_t generation = 1;
   };
@@ -70,7 +75,8 @@ class LiveRender final : public ViewSource {
   void load(const Edits& edits);
   void render(const Edits& edits);
   /// Connects a render with state, frames and tasks.
-  void connect(Render& render, const Edits& edits);
+  /// The pictures of a moving camera have at most `longest_edge` pixels in their longer side.
+  void connect(Render& render, const Edits& edits, double longest_edge);
   /// Serves tasks until the render may go on.
   void rest_while_paused(const RenderAtRest& rest);
   /// Serves tasks until an edit or the end.

@@ -19,7 +19,7 @@ struct RenderAtRest {
   const LoadedScene& loaded;
   uint64_t generation = 0;  ///< counts edits
   bool is_preview = false;
-  bool has_own_camera = true;  ///< the camera of the scene's file
+  bool is_edited = false;  ///< camera or settings are not those that the view began with
 };
 
 class RestTasks {

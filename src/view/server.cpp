@@ -54,6 +54,7 @@ struct ViewServer::Impl {
   Answers answers;
   httplib::Server server;
   std::unique_ptr<Access> access;
+  const std::function<void(const std::string&)> on_new_url;
   std::atomic<bool> is_ending{false};
   std::atomic<int> event_streams{0};
   std::thread thread;
@@ -92,6 +93,8 @@ struct ViewServer::Impl {
     add_requests();
     bind(settings);
     thread = std::thread([this] { server.listen_after_bind(); });
+    // stop() does nothing before that.
+    while (!server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
   ~Impl() {
@@ -112,8 +115,9 @@ struct ViewServer::Impl {
     else if (!server.bind_to_port(settings.address, port))
       port = -1;
     if (port < 0)
-      throw IoError(fmt::format("cannot listen at {}, port {}", settings.address,
-                                settings.port == 0 ? "any" : std::to_string(settings.port)));
+      throw IoError(
+          fmt::format("cannot listen at {}, {}", settings.address,
+                      settings.port == 0 ? "any port" : fmt::format("port {}", settings.port)));
     access = std::make_unique<Access>(settings.address, port);
   }
 
@@ -122,8 +126,13 @@ struct ViewServer::Impl {
     const std::string host = request.get_header_value("Host");
     if (!access->accepts_host(host))
       return failure(403, "this server does not answer to that name");
-    if (request.has_header("Range") || request.has_header("Expect"))
-      return failure(400, "expected a request without Range and Expect");
+    for (const char* header : {"Range", "Expect", "Transfer-Encoding", "Content-Encoding"})
+      if (request.has_header(header))
+        return failure(400, fmt::format("expected a request without {}", header));
+    // Browsers say so if another page of this machine asks, whose cookies are ours.
+    const std::string site = request.get_header_value("Sec-Fetch-Site");
+    if (request.path != "/" && !site.empty() && site != "same-origin")
+      return failure(403, "expected a request of the page itself");
     if (request.path == "/" && request.has_param("token")) return {};
     if (!access->accepts_cookie(request.get_header_value("Cookie")))
       return failure(403, "open the address that nephroid printed, with its token");
@@ -137,7 +146,10 @@ struct ViewServer::Impl {
   }
 
   static Answer size_refusal(const Request& request, bool is_upload) {
-    if (request.method != "POST") return {};
+    if (request.method != "POST")
+      return request.get_header_value<uint64_t>("Content-Length") > 0
+                 ? failure(400, "expected a request without a body")
+                 : Answer();
     if (!request.has_header("Content-Length"))
       return failure(411, "expected a request that says its length");
     const uint64_t length = request.get_header_value<uint64_t>("Content-Length");
@@ -158,9 +170,15 @@ struct ViewServer::Impl {
       }
       server.Get("/", [this, send](const Request& request, Response& response) {
         if (!request.has_param("token")) return send(request, response);
-        if (!access->accepts_token(request.get_param_value("token")))
-          return put(response, failure(403, "the token is not that of this server"));
-        response.set_header("Set-Cookie", access->set_cookie());
+        const bool is_known = access->accepts_cookie(request.get_header_value("Cookie"));
+        if (!is_known && !access->take_token(request.get_param_value("token")))
+          return put(response, failure(403,
+                                       "the address was used already, or is not that of this "
+                                       "server: nephroid has printed another one"));
+        if (!is_known) {
+          response.set_header("Set-Cookie", access->set_cookie());
+          if (on_new_url) on_new_url(access->url());
+        }
         response.set_redirect("/", 303);
       });
     }
@@ -226,7 +244,7 @@ struct ViewServer::Impl {
         sink.done();
         return true;
       }
-      const uint64_t news = server.answers.wait_for_news(seen, 1);
+      const uint64_t news = server.source.wait_for_news(seen, 1);
       if (news == seen) {
         silence += 1;
         if (silence < kLongestSilence) return true;

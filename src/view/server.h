@@ -2,6 +2,7 @@
 // protocol, docs/adr/0040-the-view.md what is trusted. It must not know how a picture is rendered.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -14,6 +15,8 @@ struct ServerSettings {
   std::string address = "127.0.0.1";
   int port = 0;                ///< 0: any that is free
   std::string save_directory;  ///< of what the page saves; empty: it is downloaded
+  /// Called with the address for another browser, by any thread, when one has come.
+  std::function<void(const std::string& url)> on_new_url;
 };
 
 class ViewServer {

@@ -8,8 +8,12 @@ bool WatchedFiles::have_changed(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
     std::error_code error;
     const auto time = std::filesystem::last_write_time(file, error);
-    if (error) continue;
     const auto known = times_.find(file);
+    if (error) {
+      // An editor may just be replacing it.
+      if (known != times_.end()) times.insert(*known);
+      continue;
+    }
     changed = changed || (known != times_.end() && known->second != time);
     times[file] = time;
   }

@@ -47,9 +47,9 @@ void view_request(const std::string& bytes) {
       if (!(gain.gain.r >= 0) || !gain.gain.is_finite()) __builtin_trap();
   } catch (const UsageError&) {
   }
-  static const Access access("127.0.0.1", 80);
+  static Access access("127.0.0.1", 80);
   // Nobody guesses the cookie.
-  if (access.accepts_cookie(bytes) || access.accepts_token(bytes)) __builtin_trap();
+  if (access.accepts_cookie(bytes) || access.take_token(bytes)) __builtin_trap();
   access.accepts_host(bytes);
   if (Access::accepts_origin(bytes, "localhost") && bytes != "http://localhost") __builtin_trap();
 }

@@ -116,18 +116,20 @@ TEST(CommandLine, MergeTakesAnyNumberOfPictures) {
 
 TEST(CommandLine, Errors) {
   EXPECT_NE(usage_error("").find("no command"), std::string::npos);
-  EXPECT_EQ(usage_error("paint s.pbrt"),
-            "unknown command 'paint', expected one of: render, merge, mix, info, routes, compare, "
-            "convert, bench");
+  EXPECT_EQ(
+      usage_error("paint s.pbrt"),
+      "unknown command 'paint', expected one of: render, view, merge, mix, info, routes, compare, "
+      "convert, bench");
   EXPECT_NE(usage_error("render").find("SCENE"), std::string::npos);
   EXPECT_NE(usage_error("render a.pbrt b.pbrt").find("b.pbrt"), std::string::npos);
   EXPECT_EQ(usage_error("render s.pbrt --resumes"),
             "unknown option '--resumes', did you mean \"--resume\"? (see nephroid render --help)");
   EXPECT_EQ(usage_error("info s.pbrt --zoom=3"),
             "unknown option '--zoom' (see nephroid info --help)");
-  EXPECT_EQ(usage_error("rendr s.pbrt"),
-            "unknown command 'rendr', expected one of: render, merge, mix, info, routes, compare, "
-            "convert, bench, did you mean \"render\"?");
+  EXPECT_EQ(
+      usage_error("rendr s.pbrt"),
+      "unknown command 'rendr', expected one of: render, view, merge, mix, info, routes, compare, "
+      "convert, bench, did you mean \"render\"?");
   EXPECT_NE(usage_error("merge -o c.exr").find("PICTURE"), std::string::npos);
   EXPECT_NE(usage_error("render s.pbrt --passes").find("--passes"), std::string::npos);
   EXPECT_NE(usage_error("render s.pbrt --passes 0").find("--passes: '0'"), std::string::npos);
@@ -192,6 +194,25 @@ TEST(CommandLine, ImportOptionsAreWordsOfTheIdentity) {
   options.shutter = 0.25;
   EXPECT_EQ(import_options_text(options),
             "camera=a%25b%09c at=2.5 shutter=0.25 define:n=1 floor=yes sun=5,6");
+}
+
+TEST(CommandLine, ViewHasOptionsOfItsOwnAndThoseOfRender) {
+  const CommandLine line = parse_command_line({"view", "s.pbrt", "--port", "8080", "--no-browser",
+                                               "--compare", "a.exr", "--save-to", "out", "--layers",
+                                               "lights", "--integrator", "path", "--floor"});
+  EXPECT_EQ(line.action, Action::kView);
+  EXPECT_EQ(line.render.scene, "s.pbrt");
+  EXPECT_EQ(line.render.routes.integrator, "path");
+  EXPECT_EQ(line.render.routes.layers, LayerChoice::kLights);
+  EXPECT_TRUE(line.render.overrides.import.floor);
+  EXPECT_EQ(line.view.port, 8080);
+  EXPECT_EQ(line.view.address, "127.0.0.1");
+  EXPECT_FALSE(line.view.opens_browser);
+  EXPECT_EQ(line.view.comparisons, std::vector<std::string>{"a.exr"});
+  EXPECT_EQ(line.view.save_directory, "out");
+  EXPECT_EQ(usage_error("view"), "SCENE is required (see nephroid view --help)");
+  EXPECT_EQ(usage_error("view s.pbrt --port 0"),
+            "--port: '0' is not valid, expected a whole number from 1 to 65535");
 }
 
 TEST(CommandLine, HelpAndVersion) {

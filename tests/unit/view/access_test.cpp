@@ -7,16 +7,18 @@ namespace nephroid {
 namespace {
 
 TEST(Access, TheUrlHasATokenThatNobodyCanGuess) {
-  const Access access("127.0.0.1", 8080), other("127.0.0.1", 8080);
+  Access access("127.0.0.1", 8080), other("127.0.0.1", 8080);
   const std::string start = "http://127.0.0.1:8080/?token=";
   ASSERT_EQ(access.url().substr(0, start.size()), start);
   const std::string token = access.url().substr(start.size());
   EXPECT_EQ(token.size(), 48u);
-  EXPECT_TRUE(access.accepts_token(token));
-  EXPECT_FALSE(other.accepts_token(token));
-  EXPECT_FALSE(access.accepts_token(""));
-  EXPECT_FALSE(access.accepts_token(token.substr(1)));
-  EXPECT_FALSE(access.accepts_token(token + "0"));
+  EXPECT_FALSE(other.take_token(token));
+  EXPECT_FALSE(access.take_token(""));
+  EXPECT_FALSE(access.take_token(token.substr(1)));
+  EXPECT_FALSE(access.take_token(token + "0"));
+  EXPECT_TRUE(access.take_token(token));
+  EXPECT_FALSE(access.take_token(token)) << "it is of use once";
+  EXPECT_TRUE(access.take_token(access.url().substr(start.size())));
 }
 
 TEST(Access, AServerThatListensEverywhereIsAtHomeInItsUrl) {

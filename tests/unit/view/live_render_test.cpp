@@ -198,6 +198,37 @@ TEST_F(Live, WritesAPicture) {
   EXPECT_TRUE(std::filesystem::exists(directory_.file("out.png")));
 }
 
+TEST_F(Live, GoesOnFromASavedRender) {
+  const auto is_done = [](const LiveState& state) { return state.status == LiveStatus::kDone; };
+  RenderRequest short_one = request();
+  short_one.options.output = directory_.file("out.exr");
+  short_one.options.last_pass = 3;
+  {
+    LiveRender live(short_one);
+    ASSERT_TRUE(comes(live, is_done));
+    live.at_rest([&](const RenderAtRest& rest) {
+      EXPECT_FALSE(rest.is_edited);
+      rest.render.save(short_one.options.output, true);
+    });
+  }
+  short_one.options.last_pass = 5;
+  short_one.resume = true;
+  LiveRender live(short_one);
+  ASSERT_TRUE(comes(live, is_done));
+  live.at_rest([](const RenderAtRest& rest) { EXPECT_EQ(rest.render.film().estimates(0), 6u); });
+}
+
+TEST_F(Live, AMovedCameraIsAnEdit) {
+  LiveRender live(request());
+  ASSERT_TRUE(has_picture(live));
+  CameraChange change;
+  change.eye = Vec3d(1, 0, -4);
+  const uint64_t generation = live.move_camera(change);
+  live.at_rest([&](const RenderAtRest& rest) {
+    EXPECT_TRUE(rest.generation != generation || rest.is_edited);
+  });
+}
+
 TEST_F(Live, ErrorsOfQuestionsReachWhoAsks) {
   LiveRender live(request());
   ASSERT_TRUE(has_picture(live));

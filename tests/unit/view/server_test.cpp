@@ -72,9 +72,10 @@ class Server : public testing::Test {
     return client;
   }
 
-  /// The cookie of a browser that came with the token.
+  /// The cookie of a browser that comes with the address of now.
   std::string cookie() const {
-    auto found = client().Get("/?token=" + token_);
+    const std::string url = server_.url();
+    auto found = client().Get("/?token=" + url.substr(url.find('=') + 1));
     const std::string header = found->get_header_value("Set-Cookie");
     return header.substr(0, header.find(';'));
   }
@@ -118,6 +119,8 @@ TEST_F(Server, LetsInWhoHasTheTokenAndGivesACookie) {
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, 303);
   EXPECT_EQ(answer->get_header_value("Location"), "/");
+  EXPECT_EQ(status_of_get("/?token=" + token_, {}), 403) << "the address is of use once";
+  EXPECT_EQ(status_of_get("/?token=" + token_, of_browser()), 303) << "who is in may reload it";
   EXPECT_EQ(status_of_get("/", of_browser()), 200);
   EXPECT_EQ(status_of_get("/api/state", of_browser()), 200);
 }
@@ -203,9 +206,17 @@ TEST_F(Server, RefusesLongAndMalformedBodies) {
   EXPECT_EQ(
       status_of_post("/api/upload?name=x.exr", of_page(), "no picture", "application/octet-stream"),
       400);
-  httplib::Headers headers = of_browser();
-  headers.emplace("Range", "bytes=0-0,0-0,0-0");
-  EXPECT_EQ(status_of_get("/", headers), 400);
+  for (const auto& [name, value] :
+       {std::pair("Range", "bytes=0-0,0-0,0-0"), std::pair("Transfer-Encoding", "chunked"),
+        std::pair("Content-Encoding", "gzip")}) {
+    httplib::Headers headers = of_browser();
+    headers.emplace(name, value);
+    EXPECT_EQ(status_of_get("/", headers), 400) << name;
+  }
+  httplib::Headers of_neighbour = of_browser();
+  of_neighbour.emplace("Sec-Fetch-Site", "same-site");
+  EXPECT_EQ(status_of_get("/api/save?kind=exr", of_neighbour), 403);
+  EXPECT_EQ(status_of_get("/api/frame?layers=a,b,a", of_browser()), 400);
   EXPECT_EQ(status_of_get("/" + std::string(9000, 'a'), of_browser()), 414);
 }
 
@@ -299,7 +310,7 @@ TEST(ViewServer, APortThatIsTakenIsAnError) {
   ASSERT_EQ(::listen(descriptor, 1), 0);
   socklen_t size = sizeof(address);
   ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size);
-  EXPECT_THROW(ViewServer(source, comparisons, {"127.0.0.1", ntohs(address.sin_port), ""}),
+  EXPECT_THROW(ViewServer(source, comparisons, {"127.0.0.1", ntohs(address.sin_port), "", {}}),
                IoError);
   ::close(descriptor);
 }
