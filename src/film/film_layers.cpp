@@ -50,6 +50,9 @@ std::vector<FilmLayer> film_layers(const Film& film) {
   layers.push_back({"stderr", "RGB", [](const Film& f, int x, int y, float* out) {
                       put3(f.standard_error(x, y), out);
                     }});
+  if (film.has_bias())
+    layers.push_back(
+        {"bias", "Y", [](const Film& f, int x, int y, float* out) { *out = f.bias(x, y); }});
   layers.push_back({"samples", "N", [](const Film& f, int x, int y, float* out) {
                       *out = static_cast<float>(samples_of(f, x, y));
                     }});

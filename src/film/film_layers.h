@@ -11,7 +11,7 @@
 namespace nephroid {
 
 /// A layer of a film: "picture" (all routes), a route, an AOV, "outliers", "albedo", "N", "Z",
-/// "stderr" or "samples", with the meaning of film_output.h.
+/// "stderr", "bias" or "samples", with the meaning of film_output.h.
 struct FilmLayer {
   std::string name;
   std::string channels;  ///< a letter for each channel: "RGB", "XYZ", "Z"

@@ -22,7 +22,7 @@ class Access {
   /// Throws IoError if there are none.
   Access(const std::string& address, int port);
 
-  /// The address to open: "http://127.0.0.1:8080/?token=...". It is of use once.
+  /// The address to open: "http://127.0.0.1:8080/?token=...". It works once.
   std::string url() const;
   /// True if the token is that of url(), which then gets another one.
   bool take_token(std::string_view token);

@@ -104,11 +104,11 @@ LiveSettings settings_of(const RenderRequest& request, const Render& render, con
 std::string done_text(const RenderResult& result) {
   switch (result.reason) {
     case StopReason::kPasses:
-      return "all passes are done";
+      return "all passes done";
     case StopReason::kTime:
-      return "the time is over";
+      return "time limit reached";
     case StopReason::kNoise:
-      return "the noise target is met";
+      return "noise target met";
     case StopReason::kSignal:
       break;
   }

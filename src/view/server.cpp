@@ -85,9 +85,8 @@ struct ViewServer::Impl {
     });
     server.set_error_handler([](const Request&, Response& response) {
       if (response.body.empty())
-        put(response,
-            failure(response.status, response.status == 404 ? "there is nothing of this name here"
-                                                            : "the request is not valid"));
+        put(response, failure(response.status,
+                              response.status == 404 ? "not found" : "the request is not valid"));
     });
     add_page();
     add_requests();

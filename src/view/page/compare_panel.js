@@ -12,6 +12,7 @@ export class ComparePanel extends EventTarget {
   #server;
   #renderer; // () => Renderer
   #notify;
+  #loading = Promise.resolve(); // the last load(), which never fails
   #with = ''; // id of the comparison
   #mode = 'split';
   #split = 0.5; // of the width of the stage
@@ -67,7 +68,7 @@ export class ComparePanel extends EventTarget {
   async load() {
     const id = this.#with;
     if (id === '') return;
-    await this.#try(async () => {
+    this.#loading = this.#try(async () => {
       const frame = await this.#server.frame({ comparison: id });
       if (!frame || id !== this.#with) return;
       this.#renderer().setFrame('other', frame);
@@ -75,13 +76,16 @@ export class ComparePanel extends EventTarget {
       this.#changed();
       await this.#measure(id);
     });
+    await this.#loading;
   }
 
   async setMode(mode) {
     this.#mode = mode;
     this.#show();
     if (kHeatMaps.includes(mode) && this.#with !== '') {
-      await this.#try(() => this.#measure(this.#with));
+      this.#renderer().setHeat(null); // that of another measure
+      this.#loading = this.#try(() => this.#measure(this.#with));
+      await this.#loading;
     }
   }
 
@@ -116,7 +120,9 @@ export class ComparePanel extends EventTarget {
 
   async #remove() {
     const id = this.#with;
-    await this.choose('');
+    // A heat map that is on its way needs the picture.
+    await this.#loading;
+    if (id === this.#with) await this.choose('');
     await this.#try(async () => {
       await this.#server.remove('api/snapshot?id=' + encodeURIComponent(id));
       await this.#server.refresh();
@@ -132,10 +138,11 @@ export class ComparePanel extends EventTarget {
         .filter(([, value]) => Number.isFinite(value))
         .map(([name, value]) => [name, formatValue(value)]));
     if (!kHeatMaps.includes(this.#mode)) return;
-    const path = measured.heat[this.#mode].replace(/^\//, '');
+    const mode = this.#mode;
+    const path = measured.heat[mode].replace(/^\//, '');
     const bitmap = await createImageBitmap(await this.#server.blob(path));
-    if (id !== this.#with) return;
-    this.#renderer().setHeat(bitmap);
+    if (id === this.#with && mode === this.#mode) this.#renderer().setHeat(bitmap);
+    bitmap.close();
     this.#changed();
   }
 

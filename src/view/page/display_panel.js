@@ -39,7 +39,7 @@ export class DisplayPanel {
   setState(state) {
     const views = state.layers.filter((layer) => ['feature', 'aov'].includes(layer.kind));
     this.#display.features = new Map(views.map(({ name, channels }) => [name, channels]));
-    setOptions(byId('view'), [['', 'Mix of layers'], ...views.map(({ name }) =>
+    setOptions(byId('view'), [['', 'Picture'], ...views.map(({ name }) =>
       [name, kViewNames[name] ?? name])]);
     if (this.#display.view !== '' && !this.#display.features.has(this.#display.view)) {
       this.#display.setView('');
@@ -108,7 +108,7 @@ export class DisplayPanel {
     byId('legend').hidden = !isNumber && !(content === 'light' && curve === 'false');
     for (const swatch of byId('legend').querySelectorAll('.swatch')) swatch.hidden = isNumber;
     byId('legend').querySelector('.words').textContent = isNumber
-      ? `white ${formatValue(range[0])}, black ${formatValue(range[1])}` : 'stops from grey';
+      ? `white ${formatValue(range[0])}, black ${formatValue(range[1])}` : 'stops from middle grey';
   }
 
   #makeLegend() {

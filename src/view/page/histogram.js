@@ -46,7 +46,7 @@ export function rangeOf(grid) {
 
 /// One line on what clips.
 export function clippingText({ over, under, outside, broken }) {
-  const parts = [[over, 'white'], [under, 'black'], [outside, 'off gamut'],
+  const parts = [[over, 'white'], [under, 'black'], [outside, 'out of gamut'],
     [broken, 'not finite']].filter(([share]) => share > 0);
   if (parts.length === 0) return 'Nothing clips.';
   return parts.map(([share, text]) => `${formatShare(share)} ${text}`).join(' · ');

@@ -45,7 +45,8 @@ export class Keyboard {
     if (event.code === 'KeyF' && !event.ctrlKey && !event.metaKey) {
       this.#flyHeld = true;
       this.#updateFlying();
-    } else if ((this.#flyHeld || this.#flyMode) && kFlyKeys[event.code] && !event.ctrlKey) {
+    } else if ((this.#flyHeld || this.#flyMode) && kFlyKeys[event.code] && !event.ctrlKey &&
+               !event.metaKey) {
       this.#held.add(event.code);
       this.#fly();
     } else if (!this.#stageKey(event) && !this.#shortcut(event)) {
@@ -125,7 +126,7 @@ const kShortcuts = [
   { keys: 'X', text: 'Snapshot', action: 'snapshot', matches: plain('x') },
   { keys: 'B', text: 'Blink with the other picture', action: 'blink', matches: plain('b') },
   { keys: 'P', text: 'Pause or resume', action: 'pause', matches: plain('p') },
-  { keys: 'Shift+R', text: 'Restart', action: 'restart', matches: plain('R') },
+  { keys: 'Shift+R', text: 'Restart', action: 'restart', matches: (event) => event.shiftKey && plain('R')(event) },
   { keys: 'H', text: 'Show or hide the panels', action: 'panels', matches: plain('h') },
   { keys: 'Esc', text: 'Back to the camera tool', action: 'escape', matches: plain('Escape') },
   { keys: '?', text: 'This list', action: 'help', matches: plain('?') },

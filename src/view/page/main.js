@@ -24,6 +24,8 @@ import { Tools } from './tools.js';
 import { ViewTransform } from './view_transform.js';
 import { setUpWindow } from './window_controls.js';
 
+const kScenePanels = ['camera-panel', 'inspector-panel', 'render-panel', 'save-scene'];
+
 function start() {
   const status = new StatusBar();
   const notify = (text) => status.notify(text);
@@ -31,7 +33,8 @@ function start() {
   const view = new ViewTransform();
   const display = new Display();
   const mix = new Mix();
-  const camera = new CameraControls(new CameraSender(server));
+  const sender = new CameraSender(server);
+  const camera = new CameraControls(sender);
   let stage;
   try {
     stage = new Stage(byId('canvas'), view, display, mix);
@@ -57,6 +60,12 @@ function start() {
     { setTool: (name) => tools.set(name), toggleFly: () => keyboard.toggleFly() }, notify);
 
   stage.setCompare(() => compare.drawn);
+  // A pose that the program refuses is given up.
+  sender.addEventListener('problem', (event) => {
+    notify(event.detail);
+    camera.forget();
+    server.refresh().catch(() => {});
+  });
   compare.addEventListener('change', () => stage.requestDraw());
   for (const model of [mix, display]) model.addEventListener('change', () => feed.update());
   mix.addEventListener('change', () => displayPanel.pictureChanged());
@@ -76,6 +85,8 @@ function start() {
   server.addEventListener('state', (event) => {
     if (state && state.generation !== event.detail.generation) inspector.clear();
     state = event.detail;
+    // Of a picture there is nothing to render, to inspect or to look around in.
+    for (const id of kScenePanels) byId(id).hidden = state.kind === 'picture';
     view.setPicture(...fullSize(state));
     mix.setLayers(state.layers);
     for (const listener of listeners) listener.setState(state);

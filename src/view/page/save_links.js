@@ -3,7 +3,7 @@
 
 import { byId } from './dom.js';
 
-const kLinks = ['save-mix', 'save-exr', 'save-png'];
+const kLinks = ['save-mix', 'save-exr', 'save-png', 'save-scene'];
 
 /// directory: () => where the program writes, or nothing if files are downloaded.
 export function setUpSaveLinks(server, directory, notify) {

@@ -172,7 +172,8 @@ void main() {
   if (!hasCurrent || !inside(vec4(vec2(0.0), frameSize), place)) return;
   color.rgb = vec3(0.035);
   if (compare == 4) {
-    color.rgb = texture(heat, place / frameSize).rgb;
+    if (!inside(otherRegion, place)) return;
+    color.rgb = texture(heat, (place - otherRegion.xy) / otherRegion.zw).rgb;
     return;
   }
   int first = compare == 2 || (compare == 1 && canvas.x < split) ? 1 : 0;

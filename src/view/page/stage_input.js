@@ -85,6 +85,7 @@ export class StageInput {
   // Two fingers: their distance dollies or zooms, their middle pans.
   #pinch(id, place) {
     const others = [...this.#pointers].filter(([key]) => key !== id);
+    if (others.length === 0) return; // the other finger has gone
     const before = this.#pointers.get(id);
     const [, fixed] = others[0];
     const ratio = Math.hypot(place[0] - fixed[0], place[1] - fixed[1]) /

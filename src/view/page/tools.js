@@ -74,7 +74,7 @@ export class Tools {
     if (x < 0 || y < 0 || x >= width || y >= height) return;
     if (this.#input.tool !== 'focus') {
       readout.show([x, y]);
-      inspector.inspect(Math.floor(x), Math.floor(y));
+      if (!byId('inspector-panel').hidden) inspector.inspect(Math.floor(x), Math.floor(y));
       return;
     }
     this.#pick([x, y], ({ depth }) => {
@@ -88,7 +88,7 @@ export class Tools {
     try {
       const seen = await server.post('api/pick', { x: Math.floor(x), y: Math.floor(y) });
       if (seen.point) use(seen);
-      else notify('There is nothing at this point.');
+      else notify('No surface at this pixel.');
     } catch (error) {
       notify(error.message);
     }

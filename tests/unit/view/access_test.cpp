@@ -17,7 +17,7 @@ TEST(Access, TheUrlHasATokenThatNobodyCanGuess) {
   EXPECT_FALSE(access.take_token(token.substr(1)));
   EXPECT_FALSE(access.take_token(token + "0"));
   EXPECT_TRUE(access.take_token(token));
-  EXPECT_FALSE(access.take_token(token)) << "it is of use once";
+  EXPECT_FALSE(access.take_token(token)) << "it works once";
   EXPECT_TRUE(access.take_token(access.url().substr(start.size())));
 }
 

@@ -72,7 +72,7 @@ TEST_F(Live, EndsByItsRules) {
   LiveRender live(short_one);
   EXPECT_TRUE(comes(live, [](const LiveState& s) { return s.status == LiveStatus::kDone; }));
   EXPECT_EQ(live.state().progress.passes_done, 4u);
-  EXPECT_EQ(live.state().message, "all passes are done");
+  EXPECT_EQ(live.state().message, "all passes done");
 }
 
 /// The picture after four passes of a view with this request is that of a plain render.

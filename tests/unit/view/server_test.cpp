@@ -119,7 +119,7 @@ TEST_F(Server, LetsInWhoHasTheTokenAndGivesACookie) {
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, 303);
   EXPECT_EQ(answer->get_header_value("Location"), "/");
-  EXPECT_EQ(status_of_get("/?token=" + token_, {}), 403) << "the address is of use once";
+  EXPECT_EQ(status_of_get("/?token=" + token_, {}), 403) << "the address works once";
   EXPECT_EQ(status_of_get("/?token=" + token_, of_browser()), 303) << "who is in may reload it";
   EXPECT_EQ(status_of_get("/", of_browser()), 200);
   EXPECT_EQ(status_of_get("/api/state", of_browser()), 200);
