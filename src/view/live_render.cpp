@@ -321,7 +321,7 @@ void LiveRender::render(const Edits& edits) {
 
 void LiveRender::connect(Render& render, const Edits& edits, double longest_edge) {
   paused_seconds_ = 0;
-  render.use_clock([this] { return seconds_without_pauses(); });
+  render.use_clock([this] { return steady_seconds() - paused_seconds_; });
   const double begin = steady_seconds();
   bool is_first = true;
   render.on_picture(
@@ -392,10 +392,6 @@ void LiveRender::refuse_tasks_until_edited(const std::string& why) {
     if (must_stop()) return;
     changed_.wait(lock, [this] { return must_stop() || !tasks_.empty(); });
   }
-}
-
-double LiveRender::seconds_without_pauses() const {
-  return steady_seconds() - paused_seconds_;
 }
 
 }  // namespace nephroid

@@ -88,7 +88,6 @@ class LiveRender final : public ViewSource {
   uint64_t note_edit();
   void publish(const std::function<void(LiveState&)>& change);
   void renew_report(Render& render);
-  double seconds_without_pauses() const;
 
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
