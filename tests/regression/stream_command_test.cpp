@@ -135,7 +135,7 @@ TEST_F(StreamCommand, UnknownLayerIsAnErrorInAFrame) {
   EXPECT_EQ(frames[0].kind(), "error");
   EXPECT_EQ(frames[0].header.at("text"),
             "--stream: there is no layer 'caustics', expected some of: picture, emission, caustic, "
-            "diffuse, albedo, N, Z, stderr, samples");
+            "diffuse, albedo, N, Z, stderr, bias, samples");
 }
 
 TEST_F(StreamCommand, ErrorsAndWarningsOfTheSceneAreFrames) {
