@@ -330,8 +330,8 @@ void LiveRender::connect(Render& render, const Edits& edits, double longest_edge
           // The next preview takes about the wanted time.
           const double took = std::max(1e-3, steady_seconds() - begin);
           const double edge = preview_edge_ * std::sqrt(kPreviewSeconds / took);
-          preview_edge_ =
-              std::clamp(edge, std::max(kMinPreviewEdge, preview_edge_ / 2), preview_edge_ * 1.25);
+          preview_edge_ = std::clamp(edge, std::max(kMinPreviewEdge, preview_edge_ / 2),
+                                     std::min(preview_edge_ * 1.25, longest_edge));
         }
         is_first = false;
         FrameInfo info;
