@@ -12,26 +12,12 @@
 namespace nephroid {
 namespace {
 
-const char* reason_text(StopReason reason) {
-  switch (reason) {
-    case StopReason::kPasses:
-      return "all passes done";
-    case StopReason::kTime:
-      return "time limit";
-    case StopReason::kNoise:
-      return "noise target met";
-    case StopReason::kSignal:
-      break;
-  }
-  return "stopped by a signal";
-}
-
 std::string summary(const RenderResult& result) {
   uint64_t rays = 0;
   for (const EstimatorStatistics& s : result.statistics) rays += s.rays;
   std::string text =
       fmt::format("{} in {:.1f} s ({})", counted(result.passes_of_run, "pass", "passes"),
-                  result.seconds, reason_text(result.reason));
+                  result.seconds, stop_reason_text(result.reason));
   if (result.passes_done > result.passes_of_run)
     text += fmt::format(", {} in all runs", result.passes_done);
   if (result.has_unfinished_pass)
@@ -78,7 +64,7 @@ std::string route_lines(const Film& film) {
 std::string render_report(const RenderResult& result, const Film& film, const std::string& output) {
   if (!result.has_picture)
     return fmt::format("{} before the first pixels were rendered: there is no {}\n",
-                       reason_text(result.reason), output.empty() ? "picture" : output);
+                       stop_reason_text(result.reason), output.empty() ? "picture" : output);
   std::string text = summary(result);
   for (const std::string& line :
        choices_report(result.first_pass_statistics, result.statistics, result.passes_of_run))

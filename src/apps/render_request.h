@@ -1,4 +1,4 @@
-// What the commands `render` and `view` ask for, from their arguments.
+// The render request of the commands `render` and `view`, from their arguments.
 #pragma once
 
 #include "options/options.h"

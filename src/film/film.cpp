@@ -282,6 +282,12 @@ Rgb Film::value(int x, int y) const {
   return mean_of_routes(routes_, index(x, y));
 }
 
+uint64_t Film::samples(int x, int y) const {
+  uint64_t samples = 0;
+  for (int g = 0; g < layout().group_count(); ++g) samples = std::max(samples, estimates(g, x, y));
+  return samples;
+}
+
 Rgb Film::outliers(int x, int y) const {
   double total[3] = {0, 0, 0};
   for (int g = 0; outliers_ && g < layout().group_count(); ++g) {

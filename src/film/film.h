@@ -127,6 +127,8 @@ class Film {
   Rgb route_value(int route, int x, int y) const;
   Rgb aov_value(int aov, int x, int y) const;
   Rgb value(int x, int y) const;
+  /// Estimates of a pixel by the group that has most of them.
+  uint64_t samples(int x, int y) const;
   /// Held light of all routes. value() + outliers() is the picture without rejection, up to one
   /// rounding. Black without rejection.
   Rgb outliers(int x, int y) const;

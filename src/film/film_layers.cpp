@@ -14,13 +14,6 @@ void put3(const Triple& value, float* out) {
   for (int c = 0; c < 3; ++c) out[c] = value[c];
 }
 
-uint64_t samples_of(const Film& film, int x, int y) {
-  uint64_t samples = 0;
-  for (int g = 0; g < film.layout().group_count(); ++g)
-    samples = std::max(samples, film.estimates(g, x, y));
-  return samples;
-}
-
 }  // namespace
 
 std::vector<FilmLayer> film_layers(const Film& film) {
@@ -54,7 +47,7 @@ std::vector<FilmLayer> film_layers(const Film& film) {
     layers.push_back(
         {"bias", "Y", [](const Film& f, int x, int y, float* out) { *out = f.bias(x, y); }});
   layers.push_back({"samples", "N", [](const Film& f, int x, int y, float* out) {
-                      *out = static_cast<float>(samples_of(f, x, y));
+                      *out = static_cast<float>(f.samples(x, y));
                     }});
   return layers;
 }

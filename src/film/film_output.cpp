@@ -126,9 +126,7 @@ void film_row(const Film& film, int y, float* out) {
   const int routes = static_cast<int>(film.layout().routes.size());
   const int aovs = static_cast<int>(film.layout().aovs.size());
   for (int x = film.bounds().x0; x < film.bounds().x1; ++x) {
-    uint64_t samples = 0;
-    for (int g = 0; g < film.layout().group_count(); ++g)
-      samples = std::max(samples, film.estimates(g, x, y));
+    const uint64_t samples = film.samples(x, y);
     out = put(out, film.value(x, y));
     for (int r = 0; r < routes; ++r) out = put(out, film.route_value(r, x, y));
     for (int a = 0; a < aovs; ++a) out = put(out, film.aov_value(a, x, y));

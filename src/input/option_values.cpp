@@ -169,6 +169,20 @@ std::pair<int, int> parse_resolution(const std::string& option, const std::strin
   fail(option, text, fmt::format("WIDTHxHEIGHT, each from 1 to {}", kLargestSide));
 }
 
+std::vector<std::string> parse_names(const std::string& option, const std::string& text,
+                                     const std::string& example) {
+  std::vector<std::string> names;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t comma = std::min(text.find(',', begin), text.size());
+    if (comma == begin)
+      throw UsageError(
+          fmt::format("{}: '{}' is not valid, expected names as in {}", option, text, example));
+    names.push_back(text.substr(begin, comma - begin));
+    begin = comma + 1;
+  }
+  return names;
+}
+
 std::array<float, 4> parse_crop(const std::string& option, const std::string& text) {
   const char* expected = "x0,x1,y0,y1 with 0 <= x0 < x1 <= 1 and 0 <= y0 < y1 <= 1";
   std::array<float, 4> crop{};

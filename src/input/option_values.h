@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace nephroid {
 
@@ -40,6 +41,9 @@ double parse_seconds(const std::string& option, const std::string& text, double 
 std::pair<uint32_t, uint32_t> parse_passes(const std::string& option, const std::string& text);
 /// "640x360": width and height, each 1 to 65536.
 std::pair<int, int> parse_resolution(const std::string& option, const std::string& text);
+/// Names with commas between them, none empty; the message shows the example.
+std::vector<std::string> parse_names(const std::string& option, const std::string& text,
+                                     const std::string& example);
 /// "x0,x1,y0,y1" in [0,1], x0 < x1 and y0 < y1.
 std::array<float, 4> parse_crop(const std::string& option, const std::string& text);
 

@@ -30,21 +30,6 @@ constexpr int kMaxPilotPasses = 100000;
 constexpr int64_t kMaxBenchRepeats = 1000;
 constexpr int64_t kMaxBenchPasses = std::numeric_limits<uint32_t>::max() - 1;
 
-/// The names of a list with commas.
-std::vector<std::string> parse_names(const char* option, const std::string& text,
-                                     const char* example) {
-  std::vector<std::string> names;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t comma = std::min(text.find(',', begin), text.size());
-    if (comma == begin)
-      throw UsageError(
-          fmt::format("{}: '{}' is not valid, expected names as in {}", option, text, example));
-    names.push_back(text.substr(begin, comma - begin));
-    begin = comma + 1;
-  }
-  return names;
-}
-
 template <auto Command>
 void set_integrator(CommandLine& line, const std::string& text) {
   const std::vector<std::string> names = integrator_names();
@@ -178,9 +163,9 @@ const OptionDescription kOptions[] = {
     {"render", "--aov", "", "NAME=EXPR", "", "", "Output", kAovHelp, true,
      add_aov<&CommandLine::render>, true},
     {"render", "--layers", "", "routes|lights|both", "", "routes", "Output",
-     "Layers to mix the picture from (nephroid mix). lights adds one for each lamp, both one for "
-     "each route and lamp, ROUTE_LAMP. Of more than 12 lamps, the 11 strongest have their own and "
-     "other-lights has the rest.",
+     "Layers for nephroid mix: lights adds one for each lamp, both adds one for each route and "
+     "lamp, ROUTE_LAMP. With more than 12 lamps, the 11 strongest have a layer each, and the rest "
+     "share other-lights.",
      false, set_layers, true},
     {"render", "--resume", "", "", "", "", "Output",
      "Go on with the render of OUT.state, or start it. The result has the bits of an uninterrupted "

@@ -44,7 +44,7 @@ class Inspector {
   }
 
   PixelInspection run(EstimatorSet& set) {
-    read_film(set);
+    read_film();
     std::optional<StandIn> stand_in = stand_in_for(set, scene_, settings_.options);
     std::vector<Recorded> recorded = estimators_of(set, [&](const Estimator& estimator) {
       return !stand_in || !stand_in->replaces(estimator);
@@ -63,7 +63,7 @@ class Inspector {
   }
 
  private:
-  void read_film(const EstimatorSet& set) {
+  void read_film() {
     const int x = found_.x, y = found_.y;
     found_.value = film_.value(x, y);
     found_.standard_error = film_.standard_error(x, y);
@@ -72,9 +72,7 @@ class Inspector {
       found_.routes.push_back({layout.routes[r], film_.route_value(static_cast<int>(r), x, y)});
     for (size_t a = 0; a < layout.aovs.size(); ++a)
       found_.layers.push_back({layout.aovs[a], film_.aov_value(static_cast<int>(a), x, y)});
-    found_.samples = 0;
-    for (size_t g = 0; g < set.routes->groups().size(); ++g)
-      found_.samples = std::max(found_.samples, film_.estimates(static_cast<int>(g), x, y));
+    found_.samples = film_.samples(x, y);
   }
 
   /// The estimators of the set that are wanted and can be recorded; they learn if needed.
@@ -82,12 +80,16 @@ class Inspector {
   std::vector<Recorded> estimators_of(EstimatorSet& set, const Wanted& wanted) {
     set.learned.resize(set.estimators.size());
     std::vector<Recorded> all;
+    // The passes that all groups have of this pixel, whose last one has the radius to merge with.
+    uint64_t passes = std::numeric_limits<uint64_t>::max();
+    for (size_t g = 0; g < set.routes->groups().size(); ++g)
+      passes = std::min(passes, film_.estimates(static_cast<int>(g), found_.x, found_.y));
     for (size_t g = 0; g < set.routes->groups().size(); ++g) {
       const Estimator& estimator = *set.estimators[g];
       if (!estimator.records_pixels() || !wanted(estimator)) continue;
       const auto& learned = set.learned[g].learn(estimator, settings_.seed, scene_, film_.format());
       all.push_back({&estimator, learned.get(), set.routes.get(),
-                     static_cast<uint32_t>(std::max<uint64_t>(found_.samples, 1) - 1)});
+                     static_cast<uint32_t>(std::max<uint64_t>(passes, 1) - 1)});
     }
     return all;
   }

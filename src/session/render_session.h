@@ -17,6 +17,7 @@
 #include "session/pass_watch.h"
 #include "session/report/noise.h"
 #include "session/signals.h"
+#include "session/stop_reason.h"
 
 namespace nephroid {
 
@@ -43,8 +44,6 @@ struct RenderOptions {
   std::vector<std::string> notes;  ///< notes on choices, for the picture's metadata
   RenderIdentity identity;         ///< for the picture's metadata; the session sets film and seed
 };
-
-enum class StopReason { kPasses, kTime, kNoise, kSignal };
 
 /// The progress of a render, after a pass or within one.
 struct RenderProgress {

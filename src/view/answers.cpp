@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <span>
 
@@ -12,6 +11,7 @@
 #include "film/film_output.h"
 #include "image/mix.h"
 #include "input/file_bytes.h"
+#include "input/option_values.h"
 #include "input/scene_files.h"
 #include "input/scene_reader.h"
 #include "session/camera_edit.h"
@@ -47,29 +47,12 @@ uint64_t number(const Parameters& parameters, const std::string& name,
                 std::optional<uint64_t> missing = std::nullopt) {
   const std::string given = text(parameters, name);
   if (given.empty() && missing) return *missing;
-  uint64_t value = 0;
-  const char* end = given.data() + given.size();
-  const auto read = std::from_chars(given.data(), end, value);
-  if (read.ec != std::errc() || read.ptr != end)
-    throw UsageError(
-        fmt::format("{}: '{}' is not valid, expected a whole number from 0", name, given));
-  return value;
+  return static_cast<uint64_t>(parse_integer(name, given, 0));
 }
 
 /// A coordinate of a pixel.
 int coordinate(const Parameters& parameters, const std::string& name) {
   return static_cast<int>(std::min<uint64_t>(number(parameters, name), 1 << 24));
-}
-
-std::vector<std::string> split(const std::string& list) {
-  std::vector<std::string> parts;
-  size_t begin = 0;
-  while (begin < list.size()) {
-    const size_t end = std::min(list.find(',', begin), list.size());
-    if (end > begin) parts.push_back(list.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
 }
 
 bool has_repeats(std::vector<std::string> names) {
@@ -162,8 +145,9 @@ Answer Answers::comparison_frame(const std::string& id) const {
 Answer Answers::frame(const Parameters& parameters, const std::string&) {
   const std::string id = text(parameters, "comparison");
   if (!id.empty()) return comparison_frame(id);
-  std::vector<std::string> layers = split(text(parameters, "layers"));
-  if (layers.empty()) layers = {"picture"};
+  const std::string names = text(parameters, "layers");
+  const std::vector<std::string> layers =
+      parse_names("layers", names.empty() ? "picture" : names, "picture,caustic");
   if (layers.size() > kMaxLayers || has_repeats(layers))
     throw UsageError(fmt::format("layers: expected at most {} names, each once", kMaxLayers));
   auto bytes =
@@ -186,7 +170,7 @@ Answer Answers::probe(const Parameters& parameters, const std::string&) {
 
 Answer Answers::compare(const Parameters& parameters, const std::string&) {
   const std::string id = text(parameters, "with");
-  const Distance found = distance(*comparison(id), source_.colors(), source_.state().exposure);
+  const Distance found = distance(*comparison(id), source_.colors());
   const auto heat = [&](const char* kind) {
     return fmt::format("/api/heat?with={}&kind={}", id, kind);
   };
@@ -196,8 +180,8 @@ Answer Answers::compare(const Parameters& parameters, const std::string&) {
 }
 
 Answer Answers::heat(const Parameters& parameters, const std::string&) {
-  const std::vector<uint8_t> png = heat_png(*comparison(text(parameters, "with")), source_.colors(),
-                                            text(parameters, "kind"), source_.state().exposure);
+  const std::vector<uint8_t> png =
+      heat_png(*comparison(text(parameters, "with")), source_.colors(), text(parameters, "kind"));
   Answer answer;
   answer.type = "image/png";
   answer.body.assign(png.begin(), png.end());
@@ -232,7 +216,7 @@ Answer Answers::save(const Parameters& parameters, const std::string&) {
   source_.write(exr);
   if (const std::string mix = text(parameters, "mix"); !mix.empty())
     write_picture(exr, mixed(read_picture(exr), parse_mix(mix, mix_layers(read_picture_head(exr)))),
-                  source_.state().exposure);
+                  1);
   if (kind == "png") return deliver(png_path_beside(exr), stem + ".png", "image/png");
   return deliver(exr, stem + ".exr", "image/x-exr");
 }
@@ -272,10 +256,8 @@ Answer Answers::render(const Parameters&, const std::string& body) {
 Answer Answers::inspect(const Parameters&, const std::string& body) {
   const PixelRequest pixel = parse_pixel_request(body);
   PixelInspection inspection;
-  live().with_picture([&](const RenderAtRest& rest) {
-    check_pixel(pixel.x, pixel.y, rest.render.film().bounds());
-    inspection = rest.render.inspect(pixel.x, pixel.y);
-  });
+  live().with_picture(
+      [&](const RenderAtRest& rest) { inspection = rest.render.inspect(pixel.x, pixel.y); });
   return json_answer(inspection_json(inspection));
 }
 

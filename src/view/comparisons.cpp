@@ -13,6 +13,8 @@ namespace nephroid {
 namespace {
 
 constexpr unsigned kLetters = 26;
+/// As in the PNG: the film's own exposure is in its values.
+constexpr float kExposure = 1;
 
 /// FLIP from 0 to 1 on the scale of the heat map, which is logarithmic.
 HeatColor flip_color(double flip) {
@@ -96,19 +98,19 @@ std::shared_ptr<const Picture> Comparisons::find(const std::string& id) const {
   return found == entries_.end() ? nullptr : found->picture;
 }
 
-Distance distance(const Picture& reference, const Picture& test, float exposure) {
-  return {compare_pictures(reference, test, {}).relmse, flip(reference, test, exposure)};
+Distance distance(const Picture& reference, const Picture& test) {
+  return {compare_pictures(reference, test, {}).relmse, flip(reference, test, kExposure)};
 }
 
 std::vector<uint8_t> heat_png(const Picture& reference, const Picture& test,
-                              const std::string& kind, float exposure) {
+                              const std::string& kind) {
   const int width = reference.width(), height = reference.height();
   if (kind == "relmse") return encode_png(width, height, heat_map(reference, test));
   if (kind != "flip")
     throw UsageError("kind: '" + kind + "' is not valid, expected relmse or flip");
   std::vector<uint8_t> bytes;
-  for (const double flip : flip_errors(width, height, display_colors(reference, exposure),
-                                       display_colors(test, exposure))) {
+  for (const double flip : flip_errors(width, height, display_colors(reference, kExposure),
+                                       display_colors(test, kExposure))) {
     const HeatColor color = flip_color(flip);
     bytes.insert(bytes.end(), {color.r, color.g, color.b});
   }

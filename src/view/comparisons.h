@@ -14,7 +14,7 @@
 
 namespace nephroid {
 
-/// R, G and B of a film with its exposure's colour space, as a picture.
+/// R, G and B of a film, in its colour space.
 Picture color_picture(const Film& film);
 /// R, G and B of a picture, without its other channels. Throws UsageError if one is missing.
 Picture color_picture(const Picture& picture);
@@ -51,10 +51,10 @@ class Comparisons {
 };
 
 /// Throws UsageError if the sizes differ.
-Distance distance(const Picture& reference, const Picture& test, float exposure);
+Distance distance(const Picture& reference, const Picture& test);
 /// The squared relative error of each pixel ("relmse") or FLIP ("flip") in false colours, as a PNG
 /// file. Throws UsageError for another kind.
 std::vector<uint8_t> heat_png(const Picture& reference, const Picture& test,
-                              const std::string& kind, float exposure);
+                              const std::string& kind);
 
 }  // namespace nephroid

@@ -1,5 +1,8 @@
 #include "view/describe_render.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -28,15 +31,6 @@ std::vector<LiveLayer> layers_of(const Render& render) {
   for (const FilmLayer& layer : film_layers(film))
     layers.push_back({layer.name, kind_of(layer.name, film.layout(), lights), layer.channels});
   return layers;
-}
-
-/// Why layers do not add up to the picture; empty if they do.
-std::string why_mix_is_inexact(const Film& film) {
-  const bool clamps = film.settings().max_component < kInfinity;
-  std::string why;
-  for (const std::string& reason : inexact_mix_reasons(clamps, film.rejection() != nullptr))
-    why += (why.empty() ? "" : "; ") + reason;
-  return why;
 }
 
 }  // namespace
@@ -77,7 +71,8 @@ void describe(const Render& render, const LoadedScene& loaded, bool is_preview, 
   // A preview has no layers of its own.
   if (is_preview) return;
   state->layers = layers_of(render);
-  state->why_mix_is_inexact = why_mix_is_inexact(film);
+  const bool clamps = film.settings().max_component < kInfinity;
+  state->why_mix_is_inexact = joined(inexact_mix_reasons(clamps, film.rejection() != nullptr));
   state->notes = render.notes();
   state->report.clear();
   state->is_mirrored = loaded.scene->camera->camera_to_world(0).m.determinant() < 0;
@@ -101,25 +96,15 @@ LiveSettings settings_of(const RenderRequest& request, const Render& render, con
   return settings;
 }
 
-std::string done_text(const RenderResult& result) {
-  switch (result.reason) {
-    case StopReason::kPasses:
-      return "all passes done";
-    case StopReason::kTime:
-      return "time limit reached";
-    case StopReason::kNoise:
-      return "noise target met";
-    case StopReason::kSignal:
-      break;
-  }
-  return "stopped";
-}
-
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) lines.push_back(line);
   return lines;
+}
+
+std::string joined(const std::vector<std::string>& reasons) {
+  return fmt::format("{}", fmt::join(reasons, "; "));
 }
 
 }  // namespace nephroid

@@ -19,10 +19,9 @@ void describe(const Render& render, const LoadedScene& loaded, bool is_preview, 
 LiveSettings settings_of(const RenderRequest& request, const Render& render, const Scene& scene,
                          const FilmDescription& full);
 
-/// Why a render has ended by itself: "time limit reached".
-std::string done_text(const RenderResult& result);
-
 /// The lines of a text, without the newlines.
 std::vector<std::string> lines_of(const std::string& text);
+/// Reasons as one text.
+std::string joined(const std::vector<std::string>& reasons);
 
 }  // namespace nephroid

@@ -77,11 +77,6 @@ std::vector<uint16_t> to_half(const std::vector<float>& values, float scale) {
   return halves;
 }
 
-/// Errors have no colour; all else with R, G and B is light or a colour.
-bool is_light(const FilmLayer& layer) {
-  return layer.channels == "RGB" && layer.name != "stderr";
-}
-
 /// Converts colours to linear sRGB, which pages show. Null is sRGB.
 void to_srgb(std::vector<float>& colors, const RgbColorSpace* space) {
   if (space == nullptr || space->name() == "srgb") return;
@@ -90,6 +85,20 @@ void to_srgb(std::vector<float>& colors, const RgbColorSpace* space) {
     const Rgb color = srgb.from_xyz(space->to_xyz({colors[i], colors[i + 1], colors[i + 2]}));
     for (int c = 0; c < 3; ++c) colors[i + static_cast<size_t>(c)] = color[c];
   }
+}
+
+/// A layer without versions of its tiles, in the scale `before` if that still does.
+std::shared_ptr<FrameLayer> new_frame(const std::string& name, const std::string& channels,
+                                      std::vector<float> values, const RgbColorSpace* space,
+                                      float before) {
+  // Errors have no colour; all else with R, G and B is light or a colour.
+  if (channels == "RGB" && name != "stderr") to_srgb(values, space);
+  auto frame = std::make_shared<FrameLayer>();
+  frame->name = name;
+  frame->channels = channels;
+  frame->scale = scale_for(largest(values), before);
+  frame->pixels = to_half(values, frame->scale);
+  return frame;
 }
 
 bool is_equal(const FrameLayer& a, const FrameLayer& b, const TileGrid& grid, size_t tile) {
@@ -104,14 +113,9 @@ bool is_equal(const FrameLayer& a, const FrameLayer& b, const TileGrid& grid, si
 
 FrameLayerPtr frame_layer(const Film& film, const FilmLayer& layer, uint64_t version,
                           const FrameLayer* before) {
-  std::vector<float> values = layer_pixels(film, layer);
-  if (is_light(layer)) to_srgb(values, film.settings().color_space);
-  auto frame = std::make_shared<FrameLayer>();
-  frame->name = layer.name;
-  frame->channels = layer.channels;
-  frame->scale = scale_for(largest(values), before ? before->scale : 1);
-  frame->pixels = to_half(values, frame->scale);
   const TileGrid grid{film.bounds().width(), film.bounds().height()};
+  const auto frame = new_frame(layer.name, layer.channels, layer_pixels(film, layer),
+                               film.settings().color_space, before ? before->scale : 1);
   frame->tile_versions.assign(grid.count(), version);
   if (before == nullptr || before->scale != frame->scale ||
       before->pixels.size() != frame->pixels.size())
@@ -136,12 +140,7 @@ FrameLayerPtr frame_layer(const Picture& picture, const std::string& name,
   for (size_t i = 0; i < pixels; ++i)
     for (const size_t channel : channels)
       values.push_back(picture.pixels[i * picture.channels.size() + channel]);
-  if (letters == "RGB" && name != "stderr") to_srgb(values, picture.color_space);
-  auto frame = std::make_shared<FrameLayer>();
-  frame->name = name;
-  frame->channels = letters;
-  frame->scale = scale_for(largest(values), 1);
-  frame->pixels = to_half(values, frame->scale);
+  const auto frame = new_frame(name, letters, std::move(values), picture.color_space, 1);
   frame->tile_versions.assign(TileGrid{picture.width(), picture.height()}.count(), 1);
   return frame;
 }

@@ -195,8 +195,7 @@ ProbedPixel LiveRender::probe(int x, int y) {
     check_pixel(pixel.x, pixel.y, film.bounds());
     probed.value = film.value(pixel.x, pixel.y);
     probed.standard_error = film.standard_error(pixel.x, pixel.y);
-    for (int g = 0; g < film.layout().group_count(); ++g)
-      probed.samples = std::max(probed.samples, film.estimates(g, pixel.x, pixel.y));
+    probed.samples = film.samples(pixel.x, pixel.y);
   });
   return probed;
 }
@@ -313,7 +312,7 @@ void LiveRender::render(const Edits& edits) {
     renew_report(render);
     publish([&](LiveState& state) {
       state.status = LiveStatus::kDone;
-      state.message = done_text(result);
+      state.message = stop_reason_text(result.reason);
     });
   }
   rest_until_edited(rest);

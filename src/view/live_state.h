@@ -50,7 +50,6 @@ struct LiveState {
   LiveSettings settings;
   std::vector<LiveLayer> layers;
   std::string why_mix_is_inexact;  ///< empty if layers add up exactly
-  float exposure = 1;              ///< of the PNG
   CameraPose camera;
   std::string camera_type;
   bool is_mirrored = false;  ///< the camera's own space is mirrored: right is left

@@ -1,7 +1,5 @@
 #include "view/picture_source.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -20,7 +18,7 @@ constexpr const char* kPictureLayer = "picture";
 
 /// Prefix of a layer's channels in the file.
 std::string prefix_of(const std::string& layer) {
-  return layer == kPictureLayer || layer == "Z" || layer == "samples" ? "" : layer + ".";
+  return layer == kPictureLayer || layer == "Z" ? "" : layer + ".";
 }
 
 LayerKind kind_of(const std::string& name, const MixLayers& mixable) {
@@ -50,12 +48,6 @@ std::vector<LiveLayer> layers_of(const Picture& picture) {
 
 }  // namespace
 
-void check_pixel(int x, int y, const PixelBounds& window) {
-  if (x < window.x0 || x >= window.x1 || y < window.y0 || y >= window.y1)
-    throw UsageError(fmt::format("pixel {},{} is outside of the picture, expected {}..{},{}..{}", x,
-                                 y, window.x0, window.x1 - 1, window.y0, window.y1 - 1));
-}
-
 PictureSource::PictureSource(const std::string& path) : picture_(read_picture(path)) {
   color_picture(picture_);  // throws if it has no colours
   state_.name = path;
@@ -70,8 +62,7 @@ PictureSource::PictureSource(const std::string& path) : picture_(read_picture(pa
   state_.settings.integrator = value_of(picture_.metadata, kIntegratorKey);
   state_.settings.width = state_.width;
   state_.settings.height = state_.height;
-  for (const std::string& reason : inexact_mix_reasons(picture_.metadata))
-    state_.why_mix_is_inexact += (state_.why_mix_is_inexact.empty() ? "" : "; ") + reason;
+  state_.why_mix_is_inexact = joined(inexact_mix_reasons(picture_.metadata));
 }
 
 uint64_t PictureSource::wait_for_news(uint64_t seen, double seconds) const {
@@ -125,7 +116,7 @@ Picture PictureSource::colors() {
 }
 
 void PictureSource::write(const std::string& exr_path) {
-  write_picture(exr_path, picture_, state_.exposure);
+  write_picture(exr_path, picture_, 1);
 }
 
 }  // namespace nephroid

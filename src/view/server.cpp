@@ -246,6 +246,7 @@ struct ViewServer::Impl {
       const uint64_t news = server.source.wait_for_news(seen, 1);
       if (news == seen) {
         silence += 1;
+        if (!sink.is_writable()) return false;
         if (silence < kLongestSilence) return true;
         silence = 0;
         return send(sink, ":\n\n");

@@ -125,7 +125,6 @@ std::string state_json(const LiveState& state, const std::vector<ListedCompariso
       {"settings", settings_json(state.settings)},
       {"layers", Json::array()},
       {"mix", {{"exact", state.why_mix_is_inexact.empty()}, {"why", state.why_mix_is_inexact}}},
-      {"exposure", state.exposure},
       {"camera", state.is_scene ? camera_json(state) : Json(nullptr)},
       {"comparisons", Json::array()},
       {"save_directory", save_directory.empty() ? Json(nullptr) : Json(save_directory)}};

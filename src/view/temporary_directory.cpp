@@ -11,8 +11,8 @@ namespace fs = std::filesystem;
 
 TemporaryDirectory::TemporaryDirectory() {
   std::error_code error;
-  // Six letters X, which mkdtemp replaces.
-  path_ = (fs::temp_directory_path(error) / "nephroid-view-XXXXXX").string();
+  const std::string random_letters(6, 'X');  // replaced by mkdtemp
+  path_ = (fs::temp_directory_path(error) / ("nephroid-view-" + random_letters)).string();
   if (error || ::mkdtemp(path_.data()) == nullptr)
     throw IoError(path_ + ": cannot make a directory for a file of the view");
 }

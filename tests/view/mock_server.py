@@ -131,7 +131,7 @@ class Render:
                          "fraction": self.passes / MAX_PASSES,
                          "error": 0.4 / math.sqrt(self.passes + 1), "rays_per_second": 2.1e6,
                          "photons": 120000},
-            "settings": self.settings, "exposure": 1.0,
+            "settings": self.settings,
             "layers": [{"name": n, "kind": k, "channels": c} for n, k, c in layers
                        if k not in left_out],
             "mix": {"exact": True, "why": ""},

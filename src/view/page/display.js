@@ -9,7 +9,6 @@ const kContents = { albedo: 'reflectance', N: 'directions', normal: 'directions'
 /// Event "change" whenever a value changes. What is viewed is the mix ("") or one feature's name.
 export class Display extends EventTarget {
   view = '';
-  pictureExposure = 1; // of the PNG
   range = [1, 0]; // numbers of a feature with one channel that are white and black
   features = new Map(); // names of the layers that can be viewed, to their channels
   #values = { ...kDefaults };
@@ -19,7 +18,7 @@ export class Display extends EventTarget {
   get tint() { return this.#values.tint; }
   get curve() { return this.#values.curve; }
   get marks() { return this.#values.marks; }
-  get exposure() { return this.pictureExposure * 2 ** this.#values.stops; }
+  get exposure() { return 2 ** this.#values.stops; }
 
   /// Changes some of stops, kelvin, tint, curve and marks.
   set(values) {

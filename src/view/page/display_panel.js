@@ -44,10 +44,6 @@ export class DisplayPanel {
     if (this.#display.view !== '' && !this.#display.features.has(this.#display.view)) {
       this.#display.setView('');
     }
-    if (this.#display.pictureExposure !== state.exposure) {
-      this.#display.pictureExposure = state.exposure ?? 1;
-      this.#display.set({});
-    }
   }
 
   /// The picture has changed. Counts it again soon; at once if it shows something else.
