@@ -140,6 +140,19 @@ std::string program_help() {
 
 namespace {
 
+/// Help of a group of options with its heading; empty if all of them are rare and not wanted.
+std::string group_help(const std::string& command, const std::string& group, Length length) {
+  std::string text;
+  for (const OptionDescription* option : options_of(command))
+    if (!option->is_positional() && group == option->group &&
+        (length == Length::kAll || !option->is_rare))
+      text += help_entry(
+          signature(*option),
+          meaning(option->help, unit_and_default(option->unit, option->default_text), length));
+  if (text.empty()) return text;
+  return fmt::format("\n{}:\n", group.empty() ? "Options" : group) + text;
+}
+
 /// Help of options; at full length also of rare ones and of -D keys.
 std::string options_help(const std::string& command, Length length) {
   std::string text;
@@ -147,15 +160,7 @@ std::string options_help(const std::string& command, Length length) {
     if (command == row.name) text = fmt::format("{}\n\nUsage: {}\n\n", row.help, usage_of(command));
   for (const OptionDescription* option : options_of(command))
     if (option->is_positional()) text += help_entry(option->name, option->help);
-  for (const std::string& group : groups_of(command)) {
-    text += fmt::format("\n{}:\n", group.empty() ? "Options" : group);
-    for (const OptionDescription* option : options_of(command))
-      if (!option->is_positional() && group == option->group &&
-          (length == Length::kAll || !option->is_rare))
-        text += help_entry(
-            signature(*option),
-            meaning(option->help, unit_and_default(option->unit, option->default_text), length));
-  }
+  for (const std::string& group : groups_of(command)) text += group_help(command, group, length);
   if (!takes_settings(command) || length != Length::kAll) return text;
   text += "\nKeys of -D:\n";
   for (const IntegratorSetting& setting : integrator_settings())

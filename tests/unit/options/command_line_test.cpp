@@ -233,6 +233,7 @@ TEST(CommandLine, HelpFitsOneScreenAndHelpAllHasAllOfIt) {
     SCOPED_TRACE(command.name);
     const std::string help = command_help(command.name), all = command_help_all(command.name);
     EXPECT_LE(std::count(help.begin(), help.end(), '\n'), 40);
+    EXPECT_EQ(help.find(":\n\n"), std::string::npos) << "a heading without options";
     for (const OptionDescription& option : option_table())
       if (option.command == std::string(command.name)) {
         const std::string row = std::string(option.name) + " ";
