@@ -66,6 +66,38 @@ TEST(ThinFilmReflectance, AddsUpTheReflectionsInTheFilm) {
   }
 }
 
+/// Airy's formula as Born and Wolf have it.
+float reflectance_by_the_book(float c, const ThinFilm& film, std::complex<double> base,
+                              float lambda) {
+  using Complex = std::complex<double>;
+  const double sin2 = 1.0 - static_cast<double>(c) * c;
+  const auto cosine_in = [sin2](Complex n) { return std::sqrt(1.0 - sin2 / (n * n)); };
+  const Complex n1(film.index), c1 = cosine_in(n1), c2 = cosine_in(base);
+  const Complex phase = std::exp(Complex(0, 4 * M_PI * film.thickness / lambda) * n1 * c1);
+  const auto amplitude = [](Complex a, Complex b) { return (a - b) / (a + b); };
+  const auto airy = [&](Complex r01, Complex r12) {
+    return std::norm((r01 + r12 * phase) / (1.0 + r01 * r12 * phase));
+  };
+  const double c0 = c;
+  return static_cast<float>(0.5 * (airy(amplitude(c0, n1 * c1), amplitude(n1 * c1, base * c2)) +
+                                   airy(amplitude(n1 * c0, c1), amplitude(base * c1, n1 * c2))));
+}
+
+TEST(ThinFilmReflectance, IsThatOfTheBook) {
+  // Films over glass, denser and thinner glass, and metals; with light that the film itself or its
+  // base turns back.
+  const std::complex<double> bases[] = {{1.5, 0}, {1.1, 0}, {0.7, 0}, {0.2, 3.4}, {1, 0.02}};
+  for (const float index : {0.8f, 1.0f, 1.33f, 2.2f})
+    for (const float thickness : {30.0f, 420.0f, 1500.0f})
+      for (const std::complex<double>& base : bases)
+        for (const float c : {0.03f, 0.3f, 0.5f, 0.8f, 1.0f}) {
+          const ThinFilm film{index, thickness};
+          EXPECT_NEAR(thin_film_reflectance(c, film, std::complex<float>(base), 550.0f),
+                      reflectance_by_the_book(c, film, base, 550.0f), 2e-4f)
+              << index << ' ' << thickness << ' ' << base << ' ' << c;
+        }
+}
+
 TEST(ThinFilmReflectance, HasItsKnownLimits) {
   const std::complex<float> metal(0.4f, 3.0f);
   for (const float c : {0.1f, 0.6f, 1.0f}) {
