@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <span>
 
@@ -16,6 +17,7 @@
 #include "input/scene_reader.h"
 #include "session/camera_edit.h"
 #include "session/camera_text.h"
+#include "view/first_picture.h"
 #include "view/inspection_json.h"
 #include "view/json_text.h"
 #include "view/live_render.h"
@@ -29,6 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr int64_t kMaxUploadedValues = int64_t{1} << 28;  ///< pixels times channels
 constexpr size_t kMaxLayers = 64;
+constexpr double kLongestWaitForPicture = 1;  ///< seconds
 constexpr const char* kBinary = "application/octet-stream";
 
 Answer json_answer(const Json& json) {
@@ -79,6 +82,13 @@ fs::path free_path(const std::string& directory, const std::string& name) {
     path = fs::path(directory) /
            fmt::format("{}-{}{}", wanted.stem().string(), i, wanted.extension().string());
   return path;
+}
+
+Answer png_answer(const std::vector<uint8_t>& png) {
+  Answer answer;
+  answer.type = "image/png";
+  answer.body.assign(png.begin(), png.end());
+  return answer;
 }
 
 /// Camera and film of the present view, without the rest of the scene.
@@ -161,6 +171,21 @@ Answer Answers::frame(const Parameters& parameters, const std::string&) {
   return answer;
 }
 
+Answer Answers::first_picture(const Parameters&, const std::string&) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(kLongestWaitForPicture);
+  auto picture = source_.picture();
+  for (uint64_t seen = 0; !picture && Clock::now() < end; picture = source_.picture())
+    seen = source_.wait_for_news(
+        seen, std::max(0.0, std::chrono::duration<double>(end - Clock::now()).count()));
+  if (!picture) {
+    Answer none;
+    none.status = 204;
+    return none;
+  }
+  return png_answer(first_picture_png(*picture));
+}
+
 Answer Answers::probe(const Parameters& parameters, const std::string&) {
   const ProbedPixel pixel = source_.probe(coordinate(parameters, "x"), coordinate(parameters, "y"));
   return json_answer({{"value", json_of(pixel.value)},
@@ -182,10 +207,7 @@ Answer Answers::compare(const Parameters& parameters, const std::string&) {
 Answer Answers::heat(const Parameters& parameters, const std::string&) {
   const std::vector<uint8_t> png =
       heat_png(*comparison(text(parameters, "with")), source_.colors(), text(parameters, "kind"));
-  Answer answer;
-  answer.type = "image/png";
-  answer.body.assign(png.begin(), png.end());
-  return answer;
+  return png_answer(png);
 }
 
 Answer Answers::deliver(const std::string& path, const std::string& name,

@@ -32,6 +32,8 @@ class Answers {
 
   Answer state(const Parameters& parameters, const std::string& body);
   Answer frame(const Parameters& parameters, const std::string& body);
+  /// Waits for a picture, but not for long.
+  Answer first_picture(const Parameters& parameters, const std::string& body);
   Answer probe(const Parameters& parameters, const std::string& body);
   Answer compare(const Parameters& parameters, const std::string& body);
   Answer heat(const Parameters& parameters, const std::string& body);

@@ -39,6 +39,12 @@ struct FrameInfo {
   uint32_t passes = 0;
 };
 
+/// A frame's picture, without its other layers.
+struct PictureFrame {
+  FrameInfo info;
+  FrameLayerPtr picture;
+};
+
 /// A layer of a film. Tiles equal to those of `before`, which may be null, keep their version.
 FrameLayerPtr frame_layer(const Film& film, const FilmLayer& layer, uint64_t version,
                           const FrameLayer* before);

@@ -85,12 +85,20 @@ std::optional<std::string> PictureSource::frame(const std::vector<std::string>& 
   std::vector<FrameLayerPtr> layers;
   for (const std::string& name : names)
     if (FrameLayerPtr made = layer(name)) layers.push_back(std::move(made));
+  return encode_frame(info(), layers, 0);
+}
+
+std::optional<PictureFrame> PictureSource::picture() {
+  return PictureFrame{info(), layer(kPictureLayer)};
+}
+
+FrameInfo PictureSource::info() const {
   FrameInfo info;
   info.generation = info.version = 1;
   info.width = picture_.full_width;
   info.height = picture_.full_height;
   info.window = picture_.window;
-  return encode_frame(info, layers, 0);
+  return info;
 }
 
 float PictureSource::value(size_t pixel, const std::string& channel) const {

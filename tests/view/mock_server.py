@@ -14,7 +14,7 @@ import urllib.parse
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 import mock_scene
-from mock_pictures import encode, inspection, png, relative_errors, tiles_of
+from mock_pictures import encode, inspection, png, relative_errors, small_png, tiles_of
 
 PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "src", "view", "page")
 TYPES = {".html": "text/html; charset=utf-8", ".css": "text/css", ".js": "text/javascript",
@@ -196,6 +196,10 @@ class Handler(BaseHTTPRequestHandler):
         elif name == "state":
             with render.changed:
                 self.json(render.state())
+        elif name == "first":
+            with render.changed:
+                render.changed.wait_for(lambda: render.film, 1)
+                self.answer(200, small_png(render.film), "image/png")
         elif name == "frame":
             self.get_frame(query)
         elif name == "probe":

@@ -7,6 +7,7 @@ import { ComparePanel } from './compare_panel.js';
 import { Display } from './display.js';
 import { DisplayPanel } from './display_panel.js';
 import { byId } from './dom.js';
+import { firstPicturePainted, hideFirstPicture } from './first_picture.js';
 import { InspectorPanel } from './inspector_panel.js';
 import { Keyboard } from './keyboard.js';
 import { LayersPanel } from './layers_panel.js';
@@ -40,6 +41,7 @@ function start() {
     stage = new Stage(byId('canvas'), view, display, mix);
   } catch (error) {
     status.setLasting(error.message, true);
+    hideFirstPicture();
     return;
   }
   let state = null;
@@ -70,6 +72,7 @@ function start() {
   for (const model of [mix, display]) model.addEventListener('change', () => feed.update());
   mix.addEventListener('change', () => displayPanel.pictureChanged());
   feed.addEventListener('frame', () => displayPanel.pictureChanged());
+  feed.addEventListener('frame', hideFirstPicture, { once: true });
   feed.addEventListener('problem', (event) => notify(event.detail));
   stage.addEventListener('lost', () => status.setLasting('The graphics card was reset.'));
   stage.addEventListener('restored', () => {
@@ -144,4 +147,5 @@ function keyActions({ camera, compare, display, render, tools, view }) {
   };
 }
 
-start();
+// WebGL keeps the browser from painting while it begins.
+firstPicturePainted().then(start);
