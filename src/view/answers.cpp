@@ -132,6 +132,10 @@ std::shared_ptr<const Picture> Answers::comparison(const std::string& id) const 
   throw UsageError("there is no picture '" + id + "' to compare with");
 }
 
+Picture Answers::shown(const Parameters& parameters) {
+  return source_.colors(parse_shown_mix(text(parameters, "mix"), source_.state().layers));
+}
+
 Answer Answers::state(const Parameters&, const std::string&) {
   Answer answer;
   answer.body = state_json(source_.state(), comparisons_.list(), save_directory_);
@@ -140,7 +144,7 @@ Answer Answers::state(const Parameters&, const std::string&) {
 
 Answer Answers::comparison_frame(const std::string& id) const {
   const std::shared_ptr<const Picture> picture = comparison(id);
-  const FrameLayerPtr layers[] = {frame_layer(*picture, "picture", "", "RGB")};
+  const FrameLayerPtr layers[] = {frame_layer(*picture, "picture", "RGB", {"R", "G", "B"})};
   FrameInfo info;
   info.version = 1;
   info.width = picture->full_width;
@@ -195,7 +199,7 @@ Answer Answers::probe(const Parameters& parameters, const std::string&) {
 
 Answer Answers::compare(const Parameters& parameters, const std::string&) {
   const std::string id = text(parameters, "with");
-  const Distance found = distance(*comparison(id), source_.colors());
+  const Distance found = distance(*comparison(id), shown(parameters));
   const auto heat = [&](const char* kind) {
     return fmt::format("/api/heat?with={}&kind={}", id, kind);
   };
@@ -206,7 +210,7 @@ Answer Answers::compare(const Parameters& parameters, const std::string&) {
 
 Answer Answers::heat(const Parameters& parameters, const std::string&) {
   const std::vector<uint8_t> png =
-      heat_png(*comparison(text(parameters, "with")), source_.colors(), text(parameters, "kind"));
+      heat_png(*comparison(text(parameters, "with")), shown(parameters), text(parameters, "kind"));
   return png_answer(png);
 }
 
@@ -283,11 +287,12 @@ Answer Answers::inspect(const Parameters&, const std::string& body) {
   return json_answer(inspection_json(inspection));
 }
 
-Answer Answers::snapshot(const Parameters&, const std::string&) {
+Answer Answers::snapshot(const Parameters& parameters, const std::string&) {
   const LiveState state = source_.state();
   const std::string description =
-      fmt::format("{:.0f} s, {}", state.progress.seconds, state.settings.integrator);
-  return json_answer({{"id", comparisons_.add_snapshot(source_.colors(), description)}});
+      fmt::format("{:.0f} s, {}{}", state.progress.seconds, state.settings.integrator,
+                  text(parameters, "mix").empty() ? "" : ", mix");
+  return json_answer({{"id", comparisons_.add_snapshot(shown(parameters), description)}});
 }
 
 Answer Answers::upload(const Parameters& parameters, const std::string& body) {

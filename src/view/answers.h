@@ -51,6 +51,8 @@ class Answers {
   LiveRender& live();
   /// The comparison that a request names; throws UsageError if there is none.
   std::shared_ptr<const Picture> comparison(const std::string& id) const;
+  /// The present picture with the gains of the parameter "mix".
+  Picture shown(const Parameters& parameters);
   Answer comparison_frame(const std::string& id) const;
   Answer save_scene(const std::string& file_name);
   /// Sends a file as a download, or moves it to the directory of saves.

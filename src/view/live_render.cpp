@@ -11,7 +11,6 @@
 #include "integrator/presets/integrator_table.h"
 #include "integrator/presets/route_presets.h"
 #include "scene/scene_view.h"
-#include "view/comparisons.h"
 #include "view/describe_render.h"
 
 namespace nephroid {
@@ -200,9 +199,10 @@ ProbedPixel LiveRender::probe(int x, int y) {
   return probed;
 }
 
-Picture LiveRender::colors() {
+Picture LiveRender::colors(const LayerGains& gains) {
   Picture picture;
-  with_picture([&](const RenderAtRest& rest) { picture = color_picture(rest.render.film()); });
+  with_picture(
+      [&](const RenderAtRest& rest) { picture = mixed_colors(rest.render.film(), gains); });
   return picture;
 }
 

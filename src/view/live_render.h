@@ -35,7 +35,7 @@ class LiveRender final : public ViewSource {
                                    uint64_t since) override;
   std::optional<PictureFrame> picture() override { return frames_.picture(); }
   ProbedPixel probe(int x, int y) override;
-  Picture colors() override;
+  Picture colors(const LayerGains& gains) override;
   void write(const std::string& exr_path) override;
   LiveRender* live() override { return this; }
 

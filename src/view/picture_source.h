@@ -22,7 +22,7 @@ class PictureSource final : public ViewSource {
                                    uint64_t since) override;
   std::optional<PictureFrame> picture() override;
   ProbedPixel probe(int x, int y) override;
-  Picture colors() override;
+  Picture colors(const LayerGains& gains) override;
   void write(const std::string& exr_path) override;
 
  private:

@@ -204,7 +204,9 @@ class Handler(BaseHTTPRequestHandler):
             self.get_frame(query)
         elif name == "probe":
             with render.changed:
-                answer = inspection(render, int(query["x"]), int(query["y"]))
+                size = zip("xy", render.film.size, render.settings["resolution"])
+                answer = inspection(render, *(int(query[axis]) * film_edge // edge
+                                              for axis, film_edge, edge in size))
             self.json({key: answer[key] for key in ("value", "error", "samples")})
         elif name == "compare":
             errors = relative_errors(render.film, render.comparisons[query["with"]])

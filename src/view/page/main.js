@@ -48,8 +48,9 @@ function start() {
   const wanted = () => wantedLayers(mix, display, state);
   const feed = new PictureFeed(server, wanted, (frame) => stage.setFrame(frame));
   const overlay = new PathOverlay(view);
-  const inspector = new InspectorPanel({ server, overlay, camera, view });
-  const compare = new ComparePanel(server, () => stage.renderer, notify);
+  const inspector = new InspectorPanel({ server, overlay, camera, view,
+    announce: (text) => status.announce(text) });
+  const compare = new ComparePanel(server, () => stage.renderer, mix, notify);
   const render = new RenderPanel(server, notify);
   const readout = new PixelReadout(server, stage, status);
   const tools = new Tools({ server, view, camera, inspector, render, overlay, readout, notify });
@@ -72,6 +73,7 @@ function start() {
   for (const model of [mix, display]) model.addEventListener('change', () => feed.update());
   mix.addEventListener('change', () => displayPanel.pictureChanged());
   feed.addEventListener('frame', () => displayPanel.pictureChanged());
+  feed.addEventListener('frame', () => readout.refresh());
   feed.addEventListener('frame', hideFirstPicture, { once: true });
   feed.addEventListener('problem', (event) => notify(event.detail));
   stage.addEventListener('lost', () => status.setLasting('The graphics card was reset.'));
@@ -81,7 +83,7 @@ function start() {
     compare.load();
   });
 
-  setUpSaveLinks(server, () => state?.save_directory, notify);
+  setUpSaveLinks(server, notify);
 
   const listeners = [status, camera, render, compare, displayPanel, layersPanel, cameraPanel, tools,
     feed];
@@ -94,8 +96,7 @@ function start() {
     mix.setLayers(state.layers);
     for (const listener of listeners) listener.setState(state);
   });
-  server.addEventListener('lost', () =>
-    status.setLasting('No connection to the program. Trying again.'));
+  server.addEventListener('lost', (event) => status.setLasting(`${event.detail}. Trying again.`));
   server.addEventListener('found', () => {
     status.setLasting('');
     camera.forget();
@@ -104,7 +105,16 @@ function start() {
   server.addEventListener('refused', () => status.setLasting(
     'The program was started again. Open the address that it printed.', true));
   offerTestInterface({ state: () => state, stage, mix, feed });
-  server.connect();
+  connectWhileSeen(server);
+}
+
+function connectWhileSeen(server) {
+  const update = () => {
+    if (document.hidden) server.close();
+    else server.connect();
+  };
+  document.addEventListener('visibilitychange', update);
+  update();
 }
 
 // Only what is needed: the picture alone as long as the mix changes nothing. Coarse pictures have

@@ -128,7 +128,7 @@ export class Renderer {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
-  /// Linear value of the sum at a pixel of the full picture, or null outside of the frame.
+  /// Linear value of the sum at a pixel of the frame's picture, or null outside of its window.
   readPixel(x, y) {
     const { header, sum } = this.#pictures.current;
     if (!header || !sum.texture) return null;

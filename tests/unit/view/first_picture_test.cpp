@@ -24,7 +24,7 @@ PictureFrame striped(int width, int height, const PixelBounds& window) {
   info.width = width;
   info.height = height;
   info.window = window;
-  return {info, frame_layer(picture, "picture", "", "RGB")};
+  return {info, frame_layer(picture, "picture", "RGB", {"R", "G", "B"})};
 }
 
 Picture decoded(const PictureFrame& frame) {
