@@ -2,6 +2,7 @@
 // DIRECTORY]. The picture is written here, so each of its values is known.
 import assert from 'node:assert/strict';
 import { mkdirSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
+import { get } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -13,6 +14,7 @@ import { writeExr } from './small_exr.mjs';
 const [program, , screenshots] = process.argv.slice(2);
 const kWidth = 96;
 const kHeight = 64;
+const kMaxPages = 16; // of the program
 const kBroken = [[10, 8], [11, 8]]; // NaN and infinity
 const kChannels = ['R', 'G', 'B', 'Z', 'samples', 'bias.Y', 'albedo.R', 'albedo.G', 'albedo.B',
   'N.X', 'N.Y', 'N.Z', 'stderr.R', 'stderr.G', 'stderr.B'];
@@ -152,6 +154,21 @@ test('a snapshot is compared', async () => {
   await page.evaluate(() => { document.querySelector('#compare-panel').open = true; });
   await page.click('#snapshot');
   await page.waitFor(() => /FLIP/.test(document.querySelector('#compare-figures').textContent));
+});
+
+test('a page too many says why it has no connection', async () => {
+  const { cookies } = await page.send('Network.getCookies');
+  const headers = { Cookie: cookies.map((one) => `${one.name}=${one.value}`).join('; ') };
+  const events = new URL('/api/events', view.address);
+  const streams = [];
+  for (let i = 0; i < kMaxPages; ++i) streams.push(get(events, { headers }).on('error', () => {}));
+  await page.evaluate(() => new Promise((resolve) => { setTimeout(resolve, 500); }));
+  const other = await browser.open(800, 600);
+  await other.goto(new URL('/', view.address).href);
+  await other.waitFor(() => /too many pages/.test(document.querySelector('#notice')?.textContent));
+  for (const stream of streams) stream.destroy();
+  await other.waitFor(() => document.querySelector('#notice').hidden);
+  await other.close();
 });
 
 test('nothing was complained of', () => {

@@ -105,8 +105,10 @@ export class DisplayPanel {
     const isNumber = content === 'number';
     byId('legend').hidden = !isNumber && !(content === 'light' && curve === 'false');
     for (const swatch of byId('legend').querySelectorAll('.swatch')) swatch.hidden = isNumber;
+    const sign = view === 'bias' ? '±' : '';
     byId('legend').querySelector('.words').textContent = isNumber
-      ? `white ${formatValue(range[0])}, black ${formatValue(range[1])}` : 'stops from middle grey';
+      ? `white ${sign}${formatValue(range[0])}, black ${sign}${formatValue(range[1])}`
+      : 'stops from middle grey';
   }
 
   #makeLegend() {
