@@ -12,6 +12,7 @@
 #include "integrator/presets/route_presets.h"
 #include "scene/scene_view.h"
 #include "view/describe_render.h"
+#include "view/thread_priority.h"
 
 namespace nephroid {
 namespace {
@@ -242,6 +243,7 @@ bool LiveRender::must_stop() const {
 }
 
 void LiveRender::work() {
+  give_way_to_others();
   while (true) {
     const Edits edits = take_edits();
     try {
