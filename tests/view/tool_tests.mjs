@@ -35,7 +35,10 @@ test('a snapshot is compared by slider, blink, difference and heat map', async (
   await openPanel('compare-panel');
   await page.click('#snapshot');
   await page.waitFor(() => !document.querySelector('#split').hidden);
-  await page.evaluate(() => window.nephroid.setGain(window.nephroid.state.layers[1].name, 3));
+  await page.evaluate(() => {
+    const [route] = window.nephroid.state.layers.filter(({ kind }) => kind === 'route');
+    window.nephroid.setGain(route.name, 3);
+  });
   await page.evaluate(() => window.nephroid.settled());
   const [x, y] = await page.middle('#split');
   await page.drag([x, y], [x - 150, y]);
@@ -44,6 +47,7 @@ test('a snapshot is compared by slider, blink, difference and heat map', async (
   await shot('compare');
   for (const mode of ['blink', 'difference', 'flip', 'relmse']) {
     await page.click(`[data-compare="${mode}"]`);
+    await page.waitFor(() => !/Measuring/.test(document.querySelector('#tag-right').textContent));
     await sleep(900);
     await shot(`compare-${mode}`);
   }
@@ -70,9 +74,13 @@ test('what is compared is the mix, and its figures follow it', async () => {
   });
   await page.waitFor(() => /Measured/.test(document.querySelector('#compare-figures').textContent));
   assert.deepEqual(await relmse(), { value: 0, mix: false });
-  await page.evaluate(() => window.nephroid.setGain(window.nephroid.state.layers[1].name, 3));
+  await page.evaluate(() => {
+    for (const { name, kind } of window.nephroid.state.layers) {
+      if (kind === 'route') window.nephroid.setGain(name, 3);
+    }
+  });
   await page.waitFor(() => /mix/.test(document.querySelector('#compare-figures').textContent));
-  assert.ok((await relmse()).value > 0);
+  assert.ok((await relmse()).value > 1, 'three times the light');
   const before = await newest();
   await page.click('#snapshot');
   await page.waitFor((old) => [...document.querySelectorAll('#compare-with option')].at(-1).value

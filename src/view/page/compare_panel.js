@@ -16,6 +16,7 @@ export class ComparePanel extends EventTarget {
   #notify;
   #measure;
   #state = null;
+  #hasHeat = false;
   #with = ''; // id of the comparison
   #mode = 'split';
   #split = 0.5; // of the width of the stage
@@ -66,7 +67,7 @@ export class ComparePanel extends EventTarget {
     this.#with = id;
     byId('compare-with').value = id;
     this.#renderer().clear('other');
-    this.#renderer().setHeat(null);
+    this.#setHeat(null);
     this.#show();
     if (id !== '') await this.load();
   }
@@ -87,9 +88,9 @@ export class ComparePanel extends EventTarget {
 
   async setMode(mode) {
     this.#mode = mode;
+    if (kHeatMaps.includes(mode)) this.#setHeat(null); // that of another measure
     this.#show();
     if (kHeatMaps.includes(mode) && this.#with !== '') {
-      this.#renderer().setHeat(null); // that of another measure
       await this.#try(() => this.#measure.now());
     }
   }
@@ -158,8 +159,13 @@ export class ComparePanel extends EventTarget {
         .map(([name, value]) => [name, formatValue(value)]),
       ['Measured', [mix && 'mix', passes > 0 && `after ${formatNumberOf(passes, 'pass', 'passes')}`]
         .filter(Boolean).join(', ')]]);
-    if (bitmap && heat === this.#mode) this.#renderer().setHeat(bitmap);
+    if (bitmap && heat === this.#mode) this.#setHeat(bitmap);
     this.#changed();
+  }
+
+  #setHeat(bitmap) {
+    this.#hasHeat = Boolean(bitmap);
+    this.#renderer().setHeat(bitmap);
   }
 
   async #try(action) {
@@ -197,7 +203,8 @@ export class ComparePanel extends EventTarget {
     byId('tag-right').hidden = this.#with === '' || mode === 'other';
     const measure = this.#mode === 'flip' ? 'FLIP' : 'relMSE';
     byId('tag-right').textContent = { difference: `Difference to ${name}`,
-      heat: `${measure} against ${name}` }[mode] ?? 'This picture';
+      heat: `${this.#hasHeat ? '' : 'Measuring '}${measure} against ${name}` }[mode] ??
+      'This picture';
   }
 
   #changed() {
