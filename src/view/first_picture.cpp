@@ -34,8 +34,8 @@ void put_mean(const PictureFrame& frame, const Span& columns, const Span& rows, 
   int count = 0;
   for (int y = std::max(rows.begin, window.y0); y < std::min(rows.end, window.y1); ++y)
     for (int x = std::max(columns.begin, window.x0); x < std::min(columns.end, window.x1); ++x) {
-      const size_t pixel = static_cast<size_t>(y - window.y0) * window.width() +
-                           static_cast<size_t>(x - window.x0);
+      const size_t pixel =
+          static_cast<size_t>(y - window.y0) * window.width() + static_cast<size_t>(x - window.x0);
       for (int c = 0; c < 3; ++c)
         sum[c] += value_at(*frame.picture, 3 * pixel + static_cast<size_t>(c));
       ++count;
