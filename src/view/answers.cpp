@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <span>
 
@@ -16,6 +17,7 @@
 #include "input/scene_reader.h"
 #include "session/camera_edit.h"
 #include "session/camera_text.h"
+#include "view/first_picture.h"
 #include "view/inspection_json.h"
 #include "view/json_text.h"
 #include "view/live_render.h"
@@ -29,6 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr int64_t kMaxUploadedValues = int64_t{1} << 28;  ///< pixels times channels
 constexpr size_t kMaxLayers = 64;
+constexpr double kLongestWaitForPicture = 1;  ///< seconds
 constexpr const char* kBinary = "application/octet-stream";
 
 Answer json_answer(const Json& json) {
@@ -81,6 +84,13 @@ fs::path free_path(const std::string& directory, const std::string& name) {
   return path;
 }
 
+Answer png_answer(const std::vector<uint8_t>& png) {
+  Answer answer;
+  answer.type = "image/png";
+  answer.body.assign(png.begin(), png.end());
+  return answer;
+}
+
 /// Camera and film of the present view, without the rest of the scene.
 SceneDescription view_of(LiveRender& live) {
   SceneDescription view;
@@ -122,6 +132,10 @@ std::shared_ptr<const Picture> Answers::comparison(const std::string& id) const 
   throw UsageError("there is no picture '" + id + "' to compare with");
 }
 
+Picture Answers::shown(const Parameters& parameters) {
+  return source_.colors(parse_shown_mix(text(parameters, "mix"), source_.state().layers));
+}
+
 Answer Answers::state(const Parameters&, const std::string&) {
   Answer answer;
   answer.body = state_json(source_.state(), comparisons_.list(), save_directory_);
@@ -130,7 +144,7 @@ Answer Answers::state(const Parameters&, const std::string&) {
 
 Answer Answers::comparison_frame(const std::string& id) const {
   const std::shared_ptr<const Picture> picture = comparison(id);
-  const FrameLayerPtr layers[] = {frame_layer(*picture, "picture", "", "RGB")};
+  const FrameLayerPtr layers[] = {frame_layer(*picture, "picture", "RGB", {"R", "G", "B"})};
   FrameInfo info;
   info.version = 1;
   info.width = picture->full_width;
@@ -161,6 +175,21 @@ Answer Answers::frame(const Parameters& parameters, const std::string&) {
   return answer;
 }
 
+Answer Answers::first_picture(const Parameters&, const std::string&) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(kLongestWaitForPicture);
+  auto picture = source_.picture();
+  for (uint64_t seen = 0; !picture && Clock::now() < end; picture = source_.picture())
+    seen = source_.wait_for_news(
+        seen, std::max(0.0, std::chrono::duration<double>(end - Clock::now()).count()));
+  if (!picture) {
+    Answer none;
+    none.status = 204;
+    return none;
+  }
+  return png_answer(first_picture_png(*picture));
+}
+
 Answer Answers::probe(const Parameters& parameters, const std::string&) {
   const ProbedPixel pixel = source_.probe(coordinate(parameters, "x"), coordinate(parameters, "y"));
   return json_answer({{"value", json_of(pixel.value)},
@@ -170,7 +199,7 @@ Answer Answers::probe(const Parameters& parameters, const std::string&) {
 
 Answer Answers::compare(const Parameters& parameters, const std::string&) {
   const std::string id = text(parameters, "with");
-  const Distance found = distance(*comparison(id), source_.colors());
+  const Distance found = distance(*comparison(id), shown(parameters));
   const auto heat = [&](const char* kind) {
     return fmt::format("/api/heat?with={}&kind={}", id, kind);
   };
@@ -181,11 +210,8 @@ Answer Answers::compare(const Parameters& parameters, const std::string&) {
 
 Answer Answers::heat(const Parameters& parameters, const std::string&) {
   const std::vector<uint8_t> png =
-      heat_png(*comparison(text(parameters, "with")), source_.colors(), text(parameters, "kind"));
-  Answer answer;
-  answer.type = "image/png";
-  answer.body.assign(png.begin(), png.end());
-  return answer;
+      heat_png(*comparison(text(parameters, "with")), shown(parameters), text(parameters, "kind"));
+  return png_answer(png);
 }
 
 Answer Answers::deliver(const std::string& path, const std::string& name,
@@ -261,11 +287,12 @@ Answer Answers::inspect(const Parameters&, const std::string& body) {
   return json_answer(inspection_json(inspection));
 }
 
-Answer Answers::snapshot(const Parameters&, const std::string&) {
+Answer Answers::snapshot(const Parameters& parameters, const std::string&) {
   const LiveState state = source_.state();
   const std::string description =
-      fmt::format("{:.0f} s, {}", state.progress.seconds, state.settings.integrator);
-  return json_answer({{"id", comparisons_.add_snapshot(source_.colors(), description)}});
+      fmt::format("{:.0f} s, {}{}", state.progress.seconds, state.settings.integrator,
+                  text(parameters, "mix").empty() ? "" : ", mix");
+  return json_answer({{"id", comparisons_.add_snapshot(shown(parameters), description)}});
 }
 
 Answer Answers::upload(const Parameters& parameters, const std::string& body) {

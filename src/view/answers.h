@@ -32,6 +32,8 @@ class Answers {
 
   Answer state(const Parameters& parameters, const std::string& body);
   Answer frame(const Parameters& parameters, const std::string& body);
+  /// Waits for a picture, but not for long.
+  Answer first_picture(const Parameters& parameters, const std::string& body);
   Answer probe(const Parameters& parameters, const std::string& body);
   Answer compare(const Parameters& parameters, const std::string& body);
   Answer heat(const Parameters& parameters, const std::string& body);
@@ -49,6 +51,8 @@ class Answers {
   LiveRender& live();
   /// The comparison that a request names; throws UsageError if there is none.
   std::shared_ptr<const Picture> comparison(const std::string& id) const;
+  /// The present picture with the gains of the parameter "mix".
+  Picture shown(const Parameters& parameters);
   Answer comparison_frame(const std::string& id) const;
   Answer save_scene(const std::string& file_name);
   /// Sends a file as a download, or moves it to the directory of saves.

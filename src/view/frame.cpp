@@ -20,7 +20,7 @@ constexpr int64_t kValuesPerChunk = 1 << 16;
 constexpr size_t kPayloadAlignment = 8;
 /// Halves reach 65504. Below 2^-14 they lose digits, so dim layers are scaled up. Bright ones are
 /// scaled down by at most kMaxScale, so that their dark parts keep digits; what is brighter still
-/// is clipped.
+/// is clipped. NaN and infinity stay what they are: the page marks them.
 constexpr float kLargestHalf = 65504, kLargestWanted = 32768, kSmallestWanted = 1.0f / 16;
 constexpr float kMaxScale = 64;
 
@@ -64,7 +64,7 @@ float scale_for(float max, float before) {
 }
 
 float clipped(float value) {
-  return std::isnan(value) ? 0 : std::clamp(value, -kLargestHalf, kLargestHalf);
+  return std::isfinite(value) ? std::clamp(value, -kLargestHalf, kLargestHalf) : value;
 }
 
 std::vector<uint16_t> to_half(const std::vector<float>& values, float scale) {
@@ -127,19 +127,19 @@ FrameLayerPtr frame_layer(const Film& film, const FilmLayer& layer, uint64_t ver
 }
 
 FrameLayerPtr frame_layer(const Picture& picture, const std::string& name,
-                          const std::string& prefix, const std::string& letters) {
-  std::vector<size_t> channels;
-  for (const char letter : letters) {
-    const int channel = picture.find_channel(prefix + letter);
-    if (channel < 0) return nullptr;
-    channels.push_back(static_cast<size_t>(channel));
+                          const std::string& letters, const std::vector<std::string>& channels) {
+  std::vector<size_t> indices;
+  for (const std::string& channel : channels) {
+    const int index = picture.find_channel(channel);
+    if (index < 0) return nullptr;
+    indices.push_back(static_cast<size_t>(index));
   }
   const size_t pixels = static_cast<size_t>(picture.width()) * picture.height();
   std::vector<float> values;
-  values.reserve(pixels * channels.size());
+  values.reserve(pixels * indices.size());
   for (size_t i = 0; i < pixels; ++i)
-    for (const size_t channel : channels)
-      values.push_back(picture.pixels[i * picture.channels.size() + channel]);
+    for (const size_t index : indices)
+      values.push_back(picture.pixels[i * picture.channels.size() + index]);
   const auto frame = new_frame(name, letters, std::move(values), picture.color_space, 1);
   frame->tile_versions.assign(TileGrid{picture.width(), picture.height()}.count(), 1);
   return frame;

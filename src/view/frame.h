@@ -39,13 +39,19 @@ struct FrameInfo {
   uint32_t passes = 0;
 };
 
+/// A frame's picture, without its other layers.
+struct PictureFrame {
+  FrameInfo info;
+  FrameLayerPtr picture;
+};
+
 /// A layer of a film. Tiles equal to those of `before`, which may be null, keep their version.
 FrameLayerPtr frame_layer(const Film& film, const FilmLayer& layer, uint64_t version,
                           const FrameLayer* before);
 
-/// A layer of a picture: the channels `prefix` + letter, for each letter. Null if one is missing.
+/// A layer of a picture, with a letter for each of its channels. Null if one of those is missing.
 FrameLayerPtr frame_layer(const Picture& picture, const std::string& name,
-                          const std::string& prefix, const std::string& letters);
+                          const std::string& letters, const std::vector<std::string>& channels);
 
 /// The bytes of a frame with the tiles that changed after version `since`; all for 0.
 std::string encode_frame(const FrameInfo& info, std::span<const FrameLayerPtr> layers,

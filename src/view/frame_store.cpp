@@ -93,6 +93,13 @@ std::optional<std::string> FrameStore::frame(const std::vector<std::string>& nam
   return encode_frame(info, layers, knows ? since : 0);
 }
 
+std::optional<PictureFrame> FrameStore::picture() const {
+  const std::lock_guard lock(mutex_);
+  const auto found = layers_.find(kPictureLayer);
+  if (found == layers_.end()) return std::nullopt;
+  return PictureFrame{info_, found->second};
+}
+
 uint64_t FrameStore::version() const {
   const std::lock_guard lock(mutex_);
   return info_.version;

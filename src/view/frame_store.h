@@ -30,6 +30,8 @@ class FrameStore {
   std::optional<std::string> frame(const std::vector<std::string>& layers, uint64_t generation,
                                    uint64_t since) const;
   uint64_t version() const;
+  /// The newest picture, if there is one.
+  std::optional<PictureFrame> picture() const;
 
  private:
   std::vector<std::string> wanted(double now);

@@ -11,8 +11,8 @@
 #include "integrator/presets/integrator_table.h"
 #include "integrator/presets/route_presets.h"
 #include "scene/scene_view.h"
-#include "view/comparisons.h"
 #include "view/describe_render.h"
+#include "view/thread_priority.h"
 
 namespace nephroid {
 namespace {
@@ -200,9 +200,10 @@ ProbedPixel LiveRender::probe(int x, int y) {
   return probed;
 }
 
-Picture LiveRender::colors() {
+Picture LiveRender::colors(const LayerGains& gains) {
   Picture picture;
-  with_picture([&](const RenderAtRest& rest) { picture = color_picture(rest.render.film()); });
+  with_picture(
+      [&](const RenderAtRest& rest) { picture = mixed_colors(rest.render.film(), gains); });
   return picture;
 }
 
@@ -242,6 +243,7 @@ bool LiveRender::must_stop() const {
 }
 
 void LiveRender::work() {
+  give_way_to_others();
   while (true) {
     const Edits edits = take_edits();
     try {

@@ -33,8 +33,9 @@ class LiveRender final : public ViewSource {
   /// Layers that nobody has asked for lately are made now.
   std::optional<std::string> frame(const std::vector<std::string>& layers, uint64_t generation,
                                    uint64_t since) override;
+  std::optional<PictureFrame> picture() override { return frames_.picture(); }
   ProbedPixel probe(int x, int y) override;
-  Picture colors() override;
+  Picture colors(const LayerGains& gains) override;
   void write(const std::string& exr_path) override;
   LiveRender* live() override { return this; }
 

@@ -14,11 +14,16 @@
 namespace nephroid {
 namespace {
 
-constexpr const char* kPictureLayer = "picture";
+constexpr const char *kPictureLayer = "picture", *kSamples = "samples";
 
-/// Prefix of a layer's channels in the file.
-std::string prefix_of(const std::string& layer) {
-  return layer == kPictureLayer || layer == "Z" ? "" : layer + ".";
+/// A layer's channels in the file.
+std::vector<std::string> channels_of(const LiveLayer& layer) {
+  if (layer.name == kSamples) return {layer.name};
+  const bool is_plain = layer.name == kPictureLayer || layer.name == "Z";
+  std::vector<std::string> channels;
+  for (const char letter : layer.channels)
+    channels.push_back((is_plain ? "" : layer.name + ".") + letter);
+  return channels;
 }
 
 LayerKind kind_of(const std::string& name, const MixLayers& mixable) {
@@ -43,6 +48,8 @@ std::vector<LiveLayer> layers_of(const Picture& picture) {
       layers.push_back({name, LayerKind::kFeature, "XYZ"});
   }
   if (picture.find_channel("Z") >= 0) layers.push_back({"Z", LayerKind::kFeature, "Z"});
+  if (picture.find_channel("bias.Y") >= 0) layers.push_back({"bias", LayerKind::kFeature, "Y"});
+  if (picture.find_channel(kSamples) >= 0) layers.push_back({kSamples, LayerKind::kFeature, "N"});
   return layers;
 }
 
@@ -75,7 +82,7 @@ FrameLayerPtr PictureSource::layer(const std::string& name) {
   if (found == state_.layers.end()) return nullptr;
   const std::lock_guard lock(mutex_);
   FrameLayerPtr& made = layers_[name];
-  if (!made) made = frame_layer(picture_, name, prefix_of(name), found->channels);
+  if (!made) made = frame_layer(picture_, name, found->channels, channels_of(*found));
   return made;
 }
 
@@ -85,12 +92,20 @@ std::optional<std::string> PictureSource::frame(const std::vector<std::string>& 
   std::vector<FrameLayerPtr> layers;
   for (const std::string& name : names)
     if (FrameLayerPtr made = layer(name)) layers.push_back(std::move(made));
+  return encode_frame(info(), layers, 0);
+}
+
+std::optional<PictureFrame> PictureSource::picture() {
+  return PictureFrame{info(), layer(kPictureLayer)};
+}
+
+FrameInfo PictureSource::info() const {
   FrameInfo info;
   info.generation = info.version = 1;
   info.width = picture_.full_width;
   info.height = picture_.full_height;
   info.window = picture_.window;
-  return encode_frame(info, layers, 0);
+  return info;
 }
 
 float PictureSource::value(size_t pixel, const std::string& channel) const {
@@ -111,8 +126,8 @@ ProbedPixel PictureSource::probe(int x, int y) {
   return probed;
 }
 
-Picture PictureSource::colors() {
-  return color_picture(picture_);
+Picture PictureSource::colors(const LayerGains& gains) {
+  return mixed_colors(picture_, gains);
 }
 
 void PictureSource::write(const std::string& exr_path) {

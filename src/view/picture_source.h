@@ -20,14 +20,15 @@ class PictureSource final : public ViewSource {
   uint64_t wait_for_news(uint64_t seen, double seconds) const override;
   std::optional<std::string> frame(const std::vector<std::string>& layers, uint64_t generation,
                                    uint64_t since) override;
+  std::optional<PictureFrame> picture() override;
   ProbedPixel probe(int x, int y) override;
-  Picture colors() override;
+  Picture colors(const LayerGains& gains) override;
   void write(const std::string& exr_path) override;
-  const Picture& picture() const { return picture_; }
 
  private:
   /// The layer of this name, made when it is first wanted; null if there is none.
   FrameLayerPtr layer(const std::string& name);
+  FrameInfo info() const;
   float value(size_t pixel, const std::string& channel) const;
 
   Picture picture_;

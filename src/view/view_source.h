@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "film/image_io.h"
+#include "view/frame.h"
 #include "view/live_state.h"
+#include "view/shown_mix.h"
 
 namespace nephroid {
 
@@ -31,10 +33,13 @@ class ViewSource {
   /// A frame (frame.h) with these layers that is newer than version `since` of `generation`.
   virtual std::optional<std::string> frame(const std::vector<std::string>& layers,
                                            uint64_t generation, uint64_t since) = 0;
+  /// The newest picture; empty as long as there is none.
+  virtual std::optional<PictureFrame> picture() { return std::nullopt; }
   /// Throws UsageError for a pixel outside of the window.
   virtual ProbedPixel probe(int x, int y) = 0;
-  /// R, G and B of the present picture.
-  virtual Picture colors() = 0;
+  /// R, G and B of the present picture, mixed with these gains. Throws UsageError for layers that
+  /// it does not have.
+  virtual Picture colors(const LayerGains& gains) = 0;
   /// Writes the picture with all layers, and its PNG beside it. Throws IoError.
   virtual void write(const std::string& exr_path) = 0;
   /// Null for a picture.

@@ -5,8 +5,8 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
 const kFlags = [
-  '--headless=new', '--no-sandbox', '--remote-debugging-pipe', '--use-gl=angle',
-  '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist',
+  '--headless=new', '--no-sandbox', '--remote-debugging-pipe',
+  '--enable-unsafe-swiftshader', // WebGL without a graphics card
   '--disable-dev-shm-usage', '--no-first-run', '--disable-background-networking',
   '--disable-component-update', '--hide-scrollbars=false'];
 const kAnswerMs = 30000;

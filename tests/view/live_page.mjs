@@ -124,7 +124,7 @@ before(async () => {
   // Reading a pixel waits until the picture is drawn.
   await page.waitFor(() => window.nephroid?.frameVersion > 0 &&
     window.nephroid.readPixel(...window.nephroid.frame.window));
-  console.log(`first picture after ${Date.now() - begin} ms`);
+  console.log(`a frame on the canvas after ${Date.now() - begin} ms`);
 });
 
 after(async () => {

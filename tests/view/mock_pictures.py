@@ -1,5 +1,6 @@
 # What the mock server sends of a film: frames, heat maps as PNG, and the paths of a pixel. It must
 # not know of HTTP.
+import copy
 import json
 import struct
 import zlib
@@ -54,6 +55,29 @@ def png(width, height, rgb):
 
 def noisy_pixels(film, name="picture"):
     return [v * film.noise[i // 3] for i, v in enumerate(film.values[name])]
+
+
+def small_png(film):
+    """The picture that a page shows first."""
+    def code(value):
+        encoded = 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055
+        return round(255 * min(1, max(0, encoded)))
+    width, height = film.window[2] - film.window[0], film.window[3] - film.window[1]
+    return png(width, height, bytes(code(v) for v in noisy_pixels(film)))
+
+
+def mixed(film, mix):
+    """The film with the sum of layers as its picture. mix: JSON, or nothing."""
+    result = copy.copy(film)
+    result.noise, result.values = list(film.noise), dict(film.values)
+    if mix:
+        total = [0.0] * len(film.values["picture"])
+        for name, gain in json.loads(mix).items():
+            gains = gain if isinstance(gain, list) else [gain] * 3
+            for i, v in enumerate(film.values[name]):
+                total[i] += gains[i % 3] * v
+        result.values["picture"] = total
+    return result
 
 
 def relative_errors(film, reference):

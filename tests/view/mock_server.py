@@ -14,7 +14,8 @@ import urllib.parse
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 import mock_scene
-from mock_pictures import encode, inspection, png, relative_errors, tiles_of
+from mock_pictures import (
+    encode, inspection, mixed, png, relative_errors, small_png, tiles_of)
 
 PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "src", "view", "page")
 TYPES = {".html": "text/html; charset=utf-8", ".css": "text/css", ".js": "text/javascript",
@@ -196,20 +197,27 @@ class Handler(BaseHTTPRequestHandler):
         elif name == "state":
             with render.changed:
                 self.json(render.state())
+        elif name == "first":
+            with render.changed:
+                render.changed.wait_for(lambda: render.film, 1)
+                self.answer(200, small_png(render.film), "image/png")
         elif name == "frame":
             self.get_frame(query)
         elif name == "probe":
             with render.changed:
-                answer = inspection(render, int(query["x"]), int(query["y"]))
+                size = zip("xy", render.film.size, render.settings["resolution"])
+                answer = inspection(render, *(int(query[axis]) * film_edge // edge
+                                              for axis, film_edge, edge in size))
             self.json({key: answer[key] for key in ("value", "error", "samples")})
         elif name == "compare":
-            errors = relative_errors(render.film, render.comparisons[query["with"]])
+            shown = mixed(render.film, query.get("mix"))
+            errors = relative_errors(shown, render.comparisons[query["with"]])
             mean = sum(errors) / max(1, len(errors))
             path = f"/api/heat?with={query['with']}&kind="
             self.json({"relmse": mean, "flip": min(1, math.sqrt(mean)),
                        "heat": {"relmse": path + "relmse", "flip": path + "flip"}})
         elif name == "heat":
-            self.get_heat(query["with"])
+            self.get_heat(query)
         elif name == "save":
             self.save(query)
         else:
@@ -235,9 +243,9 @@ class Handler(BaseHTTPRequestHandler):
                               render.passes)
         self.answer(200, body, "application/octet-stream")
 
-    def get_heat(self, name):
-        film = self.render.film
-        errors = relative_errors(film, self.render.comparisons[name])
+    def get_heat(self, query):
+        film = mixed(self.render.film, query.get("mix"))
+        errors = relative_errors(film, self.render.comparisons[query["with"]])
         levels = bytearray()
         for error in errors:
             level = min(255, int(255 * math.sqrt(error)))
@@ -247,6 +255,9 @@ class Handler(BaseHTTPRequestHandler):
 
     def save(self, query):
         kind = query["kind"]
+        if kind not in ("camera", "exr", "png", "scene"):
+            self.problem(400, f"kind: '{kind}' is not valid")
+            return
         if kind == "camera":
             pose = self.render.pose
             numbers = " ".join(f"{v:g}" for n in ("eye", "target", "up") for v in pose[n])
@@ -282,11 +293,15 @@ class Handler(BaseHTTPRequestHandler):
             return
         url = urllib.parse.urlparse(self.path)
         name = url.path[5:]
+        query = dict(urllib.parse.parse_qsl(url.query))
         try:
             with self.render.changed:
                 if name == "upload":
-                    query = dict(urllib.parse.parse_qsl(url.query))
                     self.json({"id": self.keep(query["name"], "file1")})
+                elif name == "snapshot":
+                    key = chr(ord("A") + len(self.render.comparisons))
+                    passes = f"{key}: {self.render.passes} passes"
+                    self.json({"id": self.keep(passes, key, query.get("mix"))})
                 else:
                     self.post_api(name, json.loads(body))
         except (KeyError, ValueError) as error:
@@ -314,15 +329,11 @@ class Handler(BaseHTTPRequestHandler):
             self.json({"point": point, "depth": depth} if point else {"point": None})
         elif name == "inspect":
             self.json(inspection(render, body["x"], body["y"]))
-        elif name == "snapshot":
-            name = chr(ord("A") + len(render.comparisons))
-            self.json({"id": self.keep(f"{name}: {render.passes} passes", name)})
         else:
             self.problem(404, f"{name}: not known")
 
-    def keep(self, name, key):
-        film = copy.copy(self.render.film)
-        film.noise = list(film.noise)
+    def keep(self, name, key, mix=None):
+        film = mixed(self.render.film, mix)
         film.name = name
         self.render.comparisons[key] = film
         self.render.notify()

@@ -87,6 +87,13 @@ test('the mix is in the link that saves it', async () => {
   await page.click('#mix-reset');
 });
 
+test('a histogram is drawn when its panel is opened', async () => {
+  await openPanel('layers-panel');
+  await page.evaluate(() => { document.querySelector('#histogram').width = 1; });
+  await openPanel('display-panel');
+  await page.waitFor(() => document.querySelector('#histogram').width > 100);
+});
+
 test('the display: false colour with its legend, clipping marks, white, views', async () => {
   await openPanel('display-panel');
   await page.press('v', 'KeyV');

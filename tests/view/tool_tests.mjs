@@ -1,12 +1,14 @@
 // What a person does with the picture: inspect, compare, move the camera, crop, settings.
 // Run by page_test.mjs.
 import assert from 'node:assert/strict';
-import { rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
 
-import { download, openPanel, page, setInput, shot, sleep, state } from './live_page.mjs';
+import {
+  browser, download, isPaused, mock, openPanel, page, setInput, shot, sleep, state,
+} from './live_page.mjs';
 
 test('a click explains a pixel', async () => {
   await openPanel('inspector-panel');
@@ -21,6 +23,10 @@ test('a click explains a pixel', async () => {
   const length = await page.evaluate(() =>
     document.querySelector('#overlay .path').getTotalLength());
   assert.ok(length > 5, `a line of ${length} pixels`);
+  const [spoken, role] = await page.evaluate(() => [
+    document.querySelector('#announcer').textContent, document.activeElement.role]);
+  assert.match(spoken, /^Pixel \d+, \d+: value .*; brightest path: .* %$/);
+  assert.equal(role, 'application');
   await page.waitFor(() => /\d/.test(document.querySelector('#readout').textContent));
   await shot('inspector');
 });
@@ -29,7 +35,10 @@ test('a snapshot is compared by slider, blink, difference and heat map', async (
   await openPanel('compare-panel');
   await page.click('#snapshot');
   await page.waitFor(() => !document.querySelector('#split').hidden);
-  await page.evaluate(() => window.nephroid.setGain(window.nephroid.state.layers[1].name, 3));
+  await page.evaluate(() => {
+    const [route] = window.nephroid.state.layers.filter(({ kind }) => kind === 'route');
+    window.nephroid.setGain(route.name, 3);
+  });
   await page.evaluate(() => window.nephroid.settled());
   const [x, y] = await page.middle('#split');
   await page.drag([x, y], [x - 150, y]);
@@ -38,6 +47,7 @@ test('a snapshot is compared by slider, blink, difference and heat map', async (
   await shot('compare');
   for (const mode of ['blink', 'difference', 'flip', 'relmse']) {
     await page.click(`[data-compare="${mode}"]`);
+    await page.waitFor(() => !/Measuring/.test(document.querySelector('#tag-right').textContent));
     await sleep(900);
     await shot(`compare-${mode}`);
   }
@@ -45,6 +55,77 @@ test('a snapshot is compared by slider, blink, difference and heat map', async (
   await setInput('#compare-with', '', 'change');
   await openPanel('layers-panel');
   await page.click('#mix-reset');
+});
+
+test('what is compared is the mix, and its figures follow it', async () => {
+  await page.evaluate(() => {
+    if (window.nephroid.state.status === 'rendering') document.querySelector('#pause').click();
+  });
+  await isPaused();
+  await openPanel('compare-panel');
+  await page.click('#snapshot');
+  await setInput('#compare-with', '', 'change');
+  const newest = () => page.evaluate(() =>
+    [...document.querySelectorAll('#compare-with option')].at(-1).value);
+  await setInput('#compare-with', await newest(), 'change');
+  const relmse = () => page.evaluate(() => {
+    const text = document.querySelector('#compare-figures').textContent;
+    return { value: parseFloat(text.match(/relMSE([-+.e\d]+?)FLIP/)?.[1]), mix: /mix/.test(text) };
+  });
+  await page.waitFor(() => /Measured/.test(document.querySelector('#compare-figures').textContent));
+  assert.deepEqual(await relmse(), { value: 0, mix: false });
+  await page.evaluate(() => {
+    for (const { name, kind } of window.nephroid.state.layers) {
+      if (kind === 'route') window.nephroid.setGain(name, 3);
+    }
+  });
+  await page.waitFor(() => /mix/.test(document.querySelector('#compare-figures').textContent));
+  assert.ok((await relmse()).value > 1, 'three times the light');
+  const before = await newest();
+  await page.click('#snapshot');
+  await page.waitFor((old) => [...document.querySelectorAll('#compare-with option')].at(-1).value
+    !== old, [before]);
+  await setInput('#compare-with', await newest(), 'change');
+  await page.waitFor(() => /relMSE0FLIP0/.test(
+    document.querySelector('#compare-figures').textContent));
+  assert.deepEqual(await relmse(), { value: 0, mix: true });
+  await setInput('#compare-with', '', 'change');
+});
+
+test('the error of the readout is not that of a mix', async () => {
+  const [x, y] = await page.middle('#stage');
+  await page.hover(x + 3, y + 9);
+  await page.waitFor(() => /sample|pass/.test(document.querySelector('#readout').textContent));
+  assert.doesNotMatch(await page.evaluate(() => document.querySelector('#readout').textContent),
+    /±/);
+  await openPanel('layers-panel');
+  await page.click('#mix-reset');
+  await page.evaluate(() => window.nephroid.settled());
+  await page.hover(x + 5, y + 9);
+  if (mock) {
+    await page.waitFor(() => /±/.test(document.querySelector('#readout').textContent));
+  }
+});
+
+test('a file is downloaded, and the page says why if it is not', async () => {
+  const folder = mkdtempSync(join(tmpdir(), 'nephroid-view-'));
+  await browser.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: folder });
+  await openPanel('save-panel');
+  await page.click('#save-exr');
+  const end = Date.now() + 20000;
+  while (!readdirSync(folder).some((name) => name.endsWith('.exr')) && Date.now() < end) {
+    await sleep(100);
+  }
+  assert.match(readdirSync(folder).join(), /^[\w-]+\.exr$/);
+  rmSync(folder, { recursive: true });
+  await page.evaluate(() => {
+    document.querySelector('#save-png').href = 'api/save?kind=nonsense';
+  });
+  await page.click('#save-png');
+  await page.waitFor(() => /nonsense.*not valid/.test(
+    document.querySelector('#notice').textContent));
+  // Chromium tells of each answer that is an error.
+  assert.match(page.problems.pop(), /nonsense/);
 });
 
 test('a saved picture is opened and compared', async () => {

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import {
-  browser, expectSum, isPaused, mock, mockAddress, openPanel, page, shot, sleep, startMock,
+  browser, expectSum, isPaused, mock, mockAddress, openPanel, page, shot, sleep, startMock, state,
   stopMock,
 } from './live_page.mjs';
 
@@ -68,6 +68,44 @@ test('at 360 pixels nothing is cut off', async () => {
     assert.ok(await page.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth));
   }
   await page.resize(1280, 800);
+});
+
+test('panels that are hidden in a wide window are there in a narrow one', async () => {
+  await page.press('h', 'KeyH');
+  const isShown = () => page.evaluate(() =>
+    getComputedStyle(document.querySelector('#panels')).display !== 'none');
+  assert.equal(await isShown(), false);
+  await page.resize(360, 740);
+  assert.equal(await isShown(), true);
+  await page.resize(1280, 800);
+  await page.press('h', 'KeyH');
+  assert.equal(await isShown(), true);
+});
+
+test('Caps Lock and R do not throw the picture away', async () => {
+  const { generation } = await state();
+  await page.press('R', 'KeyR');
+  await sleep(500);
+  assert.equal((await state()).generation, generation);
+});
+
+test('a page that nobody sees gives its connection back', async () => {
+  const see = (seen) => page.evaluate((value) => {
+    Object.defineProperty(document, 'hidden', { value: !value, configurable: true });
+    document.dispatchEvent(new Event('visibilitychange'));
+  }, seen);
+  await page.evaluate(() => fetch('api/render', { method: 'POST',
+    headers: { 'Content-Type': 'application/json' }, body: '{"action":"restart"}' }));
+  await see(false);
+  await sleep(300);
+  const { version } = await state();
+  const newest = () => page.evaluate(async () => (await (await fetch('api/state')).json()).version);
+  const end = Date.now() + 20000;
+  while (await newest() <= version && Date.now() < end) await sleep(200);
+  assert.ok(await newest() > version, 'the render goes on');
+  assert.equal((await state()).version, version);
+  await see(true);
+  await page.waitFor((old) => window.nephroid.state.version > old, [version]);
 });
 
 test('the picture comes back after the graphics card was reset', async () => {

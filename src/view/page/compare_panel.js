@@ -1,7 +1,8 @@
 // The panel of comparisons: another picture beside, instead of or against the one that is shown.
 
+import { CompareMeasure } from './compare_measure.js';
 import { byId, pressOne, setFigures, setOptions } from './dom.js';
-import { formatValue } from './format.js';
+import { formatNumberOf, formatValue } from './format.js';
 
 const kBlinkMs = 700;
 const kHeatMaps = ['relmse', 'flip'];
@@ -11,8 +12,11 @@ const kKeyStep = 0.02;
 export class ComparePanel extends EventTarget {
   #server;
   #renderer; // () => Renderer
+  #mix;
   #notify;
-  #loading = Promise.resolve(); // the last load(), which never fails
+  #measure;
+  #state = null;
+  #hasHeat = false;
   #with = ''; // id of the comparison
   #mode = 'split';
   #split = 0.5; // of the width of the stage
@@ -20,11 +24,14 @@ export class ComparePanel extends EventTarget {
   #blinked = false;
   #buttons = document.querySelectorAll('[data-compare]');
 
-  constructor(server, renderer, notify) {
+  constructor(server, renderer, mix, notify) {
     super();
     this.#server = server;
     this.#renderer = renderer;
+    this.#mix = mix;
     this.#notify = notify;
+    this.#measure = new CompareMeasure(server, () => this.#wanted,
+      (measured, wanted) => this.#showMeasured(measured, wanted));
     byId('compare-with').addEventListener('change', (event) => this.choose(event.target.value));
     for (const button of this.#buttons) {
       button.addEventListener('click', () => {
@@ -49,6 +56,7 @@ export class ComparePanel extends EventTarget {
   }
 
   setState(state) {
+    this.#state = state;
     const items = state.comparisons.map(({ id, name }) => [id, name]);
     setOptions(byId('compare-with'), [['', 'Nothing'], ...items]);
     if (this.#with !== '' && !items.some(([id]) => id === this.#with)) this.choose('');
@@ -59,33 +67,31 @@ export class ComparePanel extends EventTarget {
     this.#with = id;
     byId('compare-with').value = id;
     this.#renderer().clear('other');
-    this.#renderer().setHeat(null);
+    this.#setHeat(null);
     this.#show();
     if (id !== '') await this.load();
   }
 
-  /// Gets the other picture, its figures and its heat map; again after the picture changed.
+  /// Gets the other picture, its figures and its heat map; again after the graphics card was reset.
   async load() {
     const id = this.#with;
     if (id === '') return;
-    this.#loading = this.#try(async () => {
+    await this.#try(async () => {
       const frame = await this.#server.frame({ comparison: id });
       if (!frame || id !== this.#with) return;
       this.#renderer().setFrame('other', frame);
       this.#renderer().sum('other', () => [1, 1, 1]);
       this.#changed();
-      await this.#measure(id);
+      await this.#measure.now();
     });
-    await this.#loading;
   }
 
   async setMode(mode) {
     this.#mode = mode;
+    if (kHeatMaps.includes(mode)) this.#setHeat(null); // that of another measure
     this.#show();
     if (kHeatMaps.includes(mode) && this.#with !== '') {
-      this.#renderer().setHeat(null); // that of another measure
-      this.#loading = this.#try(() => this.#measure(this.#with));
-      await this.#loading;
+      await this.#try(() => this.#measure.now());
     }
   }
 
@@ -100,9 +106,10 @@ export class ComparePanel extends EventTarget {
 
   async snapshot() {
     await this.#try(async () => {
-      const { id } = await this.#server.post('api/snapshot', {});
+      const { id } = await this.#server.post(
+        'api/snapshot' + (this.#mix.neutral ? '' : `?mix=${encodeURIComponent(this.#gains)}`), {});
       await this.#server.refresh();
-      this.#notify(`Snapshot ${id} kept.`);
+      this.#notify(`Snapshot ${id} kept${this.#mix.neutral ? '' : ', as it is mixed'}.`);
       if (this.#with === '') await this.choose(id);
     });
   }
@@ -121,7 +128,7 @@ export class ComparePanel extends EventTarget {
   async #remove() {
     const id = this.#with;
     // A heat map that is on its way needs the picture.
-    await this.#loading;
+    await this.#measure.settled();
     if (id === this.#with) await this.choose('');
     await this.#try(async () => {
       await this.#server.remove('api/snapshot?id=' + encodeURIComponent(id));
@@ -129,21 +136,36 @@ export class ComparePanel extends EventTarget {
     });
   }
 
-  async #measure(id) {
-    const query = encodeURIComponent(id);
-    const measured = await this.#server.get(`api/compare?with=${query}`);
+  // The mix that is compared; a view of another layer does not count.
+  get #gains() {
+    return this.#mix.neutral ? '' : JSON.stringify(this.#mix.describe());
+  }
+
+  // What is to be measured, or null.
+  get #wanted() {
+    const heat = kHeatMaps.includes(this.#mode) ? this.#mode : '';
+    const isSeen = heat !== '' || byId('compare-panel').open;
+    if (this.#with === '' || !isSeen || !this.#state || this.#state.preview) return null;
+    const { generation, version, progress } = this.#state;
+    return { id: this.#with, heat, mix: this.#gains, version: `${generation}/${version}`,
+      passes: progress?.passes };
+  }
+
+  #showMeasured({ figures, bitmap }, { id, heat, mix, passes }) {
     if (id !== this.#with) return;
-    setFigures(byId('compare-figures'),
-      [['relMSE', measured.relmse], ['FLIP', measured.flip]]
+    setFigures(byId('compare-figures'), [
+      ...[['relMSE', figures.relmse], ['FLIP', figures.flip]]
         .filter(([, value]) => Number.isFinite(value))
-        .map(([name, value]) => [name, formatValue(value)]));
-    if (!kHeatMaps.includes(this.#mode)) return;
-    const mode = this.#mode;
-    const path = measured.heat[mode].replace(/^\//, '');
-    const bitmap = await createImageBitmap(await this.#server.blob(path));
-    if (id === this.#with && mode === this.#mode) this.#renderer().setHeat(bitmap);
-    bitmap.close();
+        .map(([name, value]) => [name, formatValue(value)]),
+      ['Measured', [mix && 'mix', passes > 0 && `after ${formatNumberOf(passes, 'pass', 'passes')}`]
+        .filter(Boolean).join(', ')]]);
+    if (bitmap && heat === this.#mode) this.#setHeat(bitmap);
     this.#changed();
+  }
+
+  #setHeat(bitmap) {
+    this.#hasHeat = Boolean(bitmap);
+    this.#renderer().setHeat(bitmap);
   }
 
   async #try(action) {
@@ -181,7 +203,8 @@ export class ComparePanel extends EventTarget {
     byId('tag-right').hidden = this.#with === '' || mode === 'other';
     const measure = this.#mode === 'flip' ? 'FLIP' : 'relMSE';
     byId('tag-right').textContent = { difference: `Difference to ${name}`,
-      heat: `${measure} against ${name}` }[mode] ?? 'This picture';
+      heat: `${this.#hasHeat ? '' : 'Measuring '}${measure} against ${name}` }[mode] ??
+      'This picture';
   }
 
   #changed() {

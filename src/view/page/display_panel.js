@@ -32,6 +32,8 @@ export class DisplayPanel {
       display.setView(event.target.value));
     byId('display-reset').addEventListener('click', () => display.reset());
     display.addEventListener('change', () => this.#show());
+    // A closed panel has no histogram.
+    byId('display-panel').addEventListener('toggle', () => this.pictureChanged());
     this.#makeLegend();
     this.#show();
   }
@@ -48,7 +50,7 @@ export class DisplayPanel {
 
   /// The picture has changed. Counts it again soon; at once if it shows something else.
   pictureChanged() {
-    const isOther = this.#stage.shownLayer !== this.#counted;
+    const isOther = this.#counted !== '' && this.#stage.shownLayer !== this.#counted;
     if (this.#timer && !isOther) return;
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => this.#count(), isOther ? 0 : kHistogramMs);
@@ -103,8 +105,10 @@ export class DisplayPanel {
     const isNumber = content === 'number';
     byId('legend').hidden = !isNumber && !(content === 'light' && curve === 'false');
     for (const swatch of byId('legend').querySelectorAll('.swatch')) swatch.hidden = isNumber;
+    const sign = view === 'bias' ? '±' : '';
     byId('legend').querySelector('.words').textContent = isNumber
-      ? `white ${formatValue(range[0])}, black ${formatValue(range[1])}` : 'stops from middle grey';
+      ? `white ${sign}${formatValue(range[0])}, black ${sign}${formatValue(range[1])}`
+      : 'stops from middle grey';
   }
 
   #makeLegend() {

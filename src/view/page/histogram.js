@@ -34,10 +34,10 @@ export function countValues(grid, exposure, balance) {
     broken: broken / pixels };
 }
 
-/// Smallest and largest value above 0 of a layer with one channel, without the outermost percent.
+/// Smallest and largest size above 0 of a layer with one channel, without the outermost percent.
 export function rangeOf(grid) {
-  const values = grid.filter((value, at) => at % 4 === 0 && Number.isFinite(value) && value > 0)
-    .sort();
+  const values = grid.filter((value, at) => at % 4 === 0 && Number.isFinite(value))
+    .map(Math.abs).filter((size) => size > 0).sort();
   if (values.length === 0) return [0, 1];
   const low = values[Math.floor(0.01 * values.length)];
   const high = values[Math.floor(0.99 * values.length)];

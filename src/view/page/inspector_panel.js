@@ -14,13 +14,15 @@ export class InspectorPanel {
   #overlay;
   #camera;
   #view;
+  #announce;
   #asked = 0; // counts requests; only the answer of the last one is shown
 
-  constructor({ server, overlay, camera, view }) {
+  constructor({ server, overlay, camera, view, announce }) {
     this.#server = server;
     this.#overlay = overlay;
     this.#camera = camera;
     this.#view = view;
+    this.#announce = announce;
     byId('inspect-form').addEventListener('submit', (event) => {
       event.preventDefault();
       this.inspect(byId('inspect-x').valueAsNumber, byId('inspect-y').valueAsNumber);
@@ -68,6 +70,7 @@ export class InspectorPanel {
     const notes = answer.notes ?? [answer.note].filter(Boolean);
     parts.push(...notes.map((text) => element('p', { class: 'fine', text })));
     byId('inspection').replaceChildren(...parts);
+    this.#announce(summary(answer));
   }
 
   #draw(path) {
@@ -97,6 +100,18 @@ export class InspectorPanel {
     this.#draw(paths[0]);
     return element('ul', { class: 'paths' }, ...buttons.map((button) => element('li', {}, button)));
   }
+}
+
+// The answer in a line, for screen readers.
+function summary({ x, y, value, routes = [], paths = [] }) {
+  const total = luminance(value);
+  const shares = routes.map((one) => ({ name: one.name, light: luminance(one.value) }))
+    .filter(({ light }) => light > 0).sort((a, b) => b.light - a.light)
+    .map(({ name, light }) => `${name} ${formatShare(light / total)}`);
+  const [path] = paths;
+  const brightest = path ? [`brightest path: ${[path.route, path.light, path.technique]
+    .filter(Boolean).join(', ')}, ${formatShare(path.share)}`] : [];
+  return [`Pixel ${x}, ${y}: value ${formatColor(value)}`, ...shares, ...brightest].join('; ');
 }
 
 function valueFigures(answer) {

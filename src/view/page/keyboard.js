@@ -126,7 +126,8 @@ const kShortcuts = [
   { keys: 'X', text: 'Snapshot', action: 'snapshot', matches: plain('x') },
   { keys: 'B', text: 'Blink with the other picture', action: 'blink', matches: plain('b') },
   { keys: 'P', text: 'Pause or resume', action: 'pause', matches: plain('p') },
-  { keys: 'Shift+R', text: 'Restart', action: 'restart', matches: (event) => event.shiftKey && plain('R')(event) },
+  { keys: 'Shift+R', text: 'Restart', action: 'restart',
+    matches: (event) => event.shiftKey && plain('R')(event) }, // not with Caps Lock
   { keys: 'H', text: 'Show or hide the panels', action: 'panels', matches: plain('h') },
   { keys: 'Esc', text: 'Back to the camera tool', action: 'escape', matches: plain('Escape') },
   { keys: '?', text: 'This list', action: 'help', matches: plain('?') },

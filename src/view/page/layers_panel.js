@@ -10,6 +10,7 @@ export class LayersPanel {
   #mix;
   #rows = new Map(); // name to the controls of its row
   #shown = ''; // names that have rows
+  #canChoose = true; // which layers there are
   #buttons = document.querySelectorAll('#layers-panel [data-kind]');
 
   constructor(mix) {
@@ -28,6 +29,9 @@ export class LayersPanel {
     note.hidden = state.mix.exact;
     note.textContent = state.mix.exact ? ''
       : `The layers do not add up exactly: ${state.mix.why}`;
+    if (this.#canChoose === (state.kind === 'scene')) return;
+    this.#canChoose = state.kind === 'scene';
+    this.#show();
   }
 
   #show() {
@@ -41,8 +45,9 @@ export class LayersPanel {
       button.disabled = mix.namesOf(button.dataset.kind).length === 0;
     }
     byId('layers-empty').hidden = names.length > 0;
-    byId('layers-empty').textContent = 'This picture has no layers of this kind. ' +
-      'Choose them under Render.';
+    byId('layers-empty').textContent = 'This picture has no layers of this kind.' +
+      (this.#canChoose ? ' Choose them under Render.' : '');
+    byId('save-mix').hidden = names.length === 0;
     byId('mix-reset').disabled = mix.neutral;
     byId('save-mix').href = 'api/save?' +
       new URLSearchParams({ kind: 'exr', mix: JSON.stringify(mix.describe()) });

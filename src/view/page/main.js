@@ -7,6 +7,7 @@ import { ComparePanel } from './compare_panel.js';
 import { Display } from './display.js';
 import { DisplayPanel } from './display_panel.js';
 import { byId } from './dom.js';
+import { firstPicturePainted, hideFirstPicture } from './first_picture.js';
 import { InspectorPanel } from './inspector_panel.js';
 import { Keyboard } from './keyboard.js';
 import { LayersPanel } from './layers_panel.js';
@@ -40,14 +41,16 @@ function start() {
     stage = new Stage(byId('canvas'), view, display, mix);
   } catch (error) {
     status.setLasting(error.message, true);
+    hideFirstPicture();
     return;
   }
   let state = null;
   const wanted = () => wantedLayers(mix, display, state);
   const feed = new PictureFeed(server, wanted, (frame) => stage.setFrame(frame));
   const overlay = new PathOverlay(view);
-  const inspector = new InspectorPanel({ server, overlay, camera, view });
-  const compare = new ComparePanel(server, () => stage.renderer, notify);
+  const inspector = new InspectorPanel({ server, overlay, camera, view,
+    announce: (text) => status.announce(text) });
+  const compare = new ComparePanel(server, () => stage.renderer, mix, notify);
   const render = new RenderPanel(server, notify);
   const readout = new PixelReadout(server, stage, status);
   const tools = new Tools({ server, view, camera, inspector, render, overlay, readout, notify });
@@ -70,6 +73,8 @@ function start() {
   for (const model of [mix, display]) model.addEventListener('change', () => feed.update());
   mix.addEventListener('change', () => displayPanel.pictureChanged());
   feed.addEventListener('frame', () => displayPanel.pictureChanged());
+  feed.addEventListener('frame', () => readout.refresh());
+  feed.addEventListener('frame', hideFirstPicture, { once: true });
   feed.addEventListener('problem', (event) => notify(event.detail));
   stage.addEventListener('lost', () => status.setLasting('The graphics card was reset.'));
   stage.addEventListener('restored', () => {
@@ -78,7 +83,7 @@ function start() {
     compare.load();
   });
 
-  setUpSaveLinks(server, () => state?.save_directory, notify);
+  setUpSaveLinks(server, notify);
 
   const listeners = [status, camera, render, compare, displayPanel, layersPanel, cameraPanel, tools,
     feed];
@@ -91,8 +96,7 @@ function start() {
     mix.setLayers(state.layers);
     for (const listener of listeners) listener.setState(state);
   });
-  server.addEventListener('lost', () =>
-    status.setLasting('No connection to the program. Trying again.'));
+  server.addEventListener('lost', (event) => status.setLasting(`${event.detail}. Trying again.`));
   server.addEventListener('found', () => {
     status.setLasting('');
     camera.forget();
@@ -101,7 +105,16 @@ function start() {
   server.addEventListener('refused', () => status.setLasting(
     'The program was started again. Open the address that it printed.', true));
   offerTestInterface({ state: () => state, stage, mix, feed });
-  server.connect();
+  connectWhileSeen(server);
+}
+
+function connectWhileSeen(server) {
+  const update = () => {
+    if (document.hidden) server.close();
+    else server.connect();
+  };
+  document.addEventListener('visibilitychange', update);
+  update();
 }
 
 // Only what is needed: the picture alone as long as the mix changes nothing. Coarse pictures have
@@ -144,4 +157,5 @@ function keyActions({ camera, compare, display, render, tools, view }) {
   };
 }
 
-start();
+// WebGL keeps the browser from painting while it begins.
+firstPicturePainted().then(start);

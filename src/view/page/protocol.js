@@ -4,6 +4,7 @@
 const kMagic = 0x5648504e; // "NPHV", little endian
 const kVersion = 1;
 const kRetryMs = 2000;
+const kNoConnection = 'No connection to the program';
 
 /// Splits a frame into its JSON header and its halves: {header, halves}.
 export function decodeFrame(buffer) {
@@ -36,19 +37,29 @@ export function windowSize(header) {
   return [x1 - x0, y1 - y0];
 }
 
-/// The program at the other end. Events: "state" (detail: the state), "lost", "found", "refused".
+/// The program at the other end. Events: "state" (detail: the state), "lost" (detail: why),
+/// "found", "refused".
 export class Server extends EventTarget {
   #source = null;
-  #lost = false;
+  #lost = ''; // why there is no connection
+  #retry = 0;
 
+  /// Asks for states. Pages that nobody sees close(): browsers have six connections for all pages
+  /// of a program.
   connect() {
-    this.#source?.close();
+    this.close();
     this.#source = new EventSource('api/events');
     this.#source.addEventListener('state', (event) => {
-      this.#setLost(false);
+      this.#setLost('');
       this.dispatchEvent(new CustomEvent('state', { detail: JSON.parse(event.data) }));
     });
     this.#source.onerror = () => this.#afterError();
+  }
+
+  close() {
+    clearTimeout(this.#retry);
+    this.#source?.close();
+    this.#source = null;
   }
 
   /// A frame that is newer than the query says, or null.
@@ -97,6 +108,13 @@ export class Server extends EventTarget {
     return response.json();
   }
 
+  /// A file: {blob, name}, or {saved} if the program wrote it by itself.
+  async file(path) {
+    const response = await this.#request(path);
+    const [, name] = /filename="([^"]*)"/.exec(response.headers.get('Content-Disposition')) ?? [];
+    return name ? { blob: await response.blob(), name } : response.json();
+  }
+
   async #request(path, options = {}) {
     const response = await fetch(path, { cache: 'no-store', ...options });
     if (response.ok) return response;
@@ -104,21 +122,40 @@ export class Server extends EventTarget {
     throw new Error(problem.error || `The program answered ${response.status}.`);
   }
 
-  #setLost(lost) {
-    if (lost === this.#lost) return;
-    this.#lost = lost;
-    this.dispatchEvent(new Event(lost ? 'lost' : 'found'));
+  #setLost(why) {
+    if (why === this.#lost) return;
+    this.#lost = why;
+    this.dispatchEvent(why ? new CustomEvent('lost', { detail: why }) : new Event('found'));
   }
 
   // The browser connects again by itself, except after an answer that is an error.
   async #afterError() {
-    this.#setLost(true);
-    if (this.#source.readyState !== EventSource.CLOSED) return;
-    const answer = await fetch('api/state', { cache: 'no-store' }).catch(() => null);
-    if (answer && (answer.status === 401 || answer.status === 403)) {
+    const source = this.#source;
+    if (source?.readyState !== EventSource.CLOSED) {
+      this.#setLost(kNoConnection);
+      return;
+    }
+    const { status, text } = await whyNoEvents();
+    if (source !== this.#source) return; // closed or connected again
+    if (status === 401 || status === 403) {
       this.dispatchEvent(new Event('refused'));
       return;
     }
-    setTimeout(() => this.connect(), kRetryMs);
+    this.#setLost(text ?? kNoConnection);
+    this.#retry = setTimeout(() => this.connect(), kRetryMs);
+  }
+}
+
+// An EventSource does not tell what the answer was.
+async function whyNoEvents() {
+  const stop = new AbortController();
+  try {
+    const answer = await fetch('api/events', { cache: 'no-store', signal: stop.signal });
+    const text = answer.ok ? undefined : (await answer.json()).error;
+    return { status: answer.status, text };
+  } catch {
+    return {};
+  } finally {
+    stop.abort();
   }
 }

@@ -128,7 +128,7 @@ export class Renderer {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
-  /// Linear value of the sum at a pixel of the full picture, or null outside of the frame.
+  /// Linear value of the sum at a pixel of the frame's picture, or null outside of its window.
   readPixel(x, y) {
     const { header, sum } = this.#pictures.current;
     if (!header || !sum.texture) return null;
@@ -138,13 +138,16 @@ export class Renderer {
     return [...sum.read(column, row, 1, 1).slice(0, 3)];
   }
 
-  /// Draws a picture of one pixel, so that the card's driver is ready when the first one comes.
+  /// Draws a pixel of a picture, so that the card's driver is ready when the first one comes.
   warmUp(view, look) {
     const layers = [{ name: 'picture', channels: 'RGB', scale: 1 }];
     const header = { width: 1, height: 1, window: [0, 0, 1, 1], tile: 1, tiles: [0], layers };
     this.setFrame('current', { header, halves: new Uint16Array(3) });
     this.sum('current', () => [1, 1, 1]);
+    this.#gl.enable(this.#gl.SCISSOR_TEST);
+    this.#gl.scissor(0, 0, 1, 1);
     this.draw(view, look, { mode: 'none', split: 0 });
+    this.#gl.disable(this.#gl.SCISSOR_TEST);
     this.clear('current');
   }
 

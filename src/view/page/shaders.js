@@ -72,7 +72,7 @@ uniform float exposure;
 uniform mat3 balance;
 uniform int curve;              // 0 sRGB, 1 filmic, 2 false colour
 uniform int content;            // 0 light, 1 reflectance, 2 directions, 3 one number
-uniform vec2 range;             // numbers shown as white and black; none is black, too
+uniform vec2 range;             // sizes of numbers shown as white and black; 0 is black, too
 uniform bool marks;
 uniform vec3 falseColors[${kFalseColors.length}];
 out vec4 color;
@@ -160,7 +160,8 @@ vec3 show(vec3 v) {
   if (content == 1) return encode(v);
   if (content == 2) return 0.5 * v + 0.5;
   if (content == 3) {
-    return vec3(v.r > 0.0 ? clamp((v.r - range.y) / (range.x - range.y), 0.0, 1.0) : 0.0);
+    float size = abs(v.r);
+    return vec3(size > 0.0 ? clamp((size - range.y) / (range.x - range.y), 0.0, 1.0) : 0.0);
   }
   return showLight(v);
 }

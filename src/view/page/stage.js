@@ -60,10 +60,16 @@ export class Stage extends EventTarget {
   /// Name of the first layer of the picture on the screen.
   get shownLayer() { return this.renderer.header('current')?.layers[0].name; }
 
+  /// Whether the picture on the screen is a coarse one of a moving camera.
+  get isPreview() { return Boolean(this.renderer.header('current')?.preview); }
+
   /// Linear value that is shown at a pixel of the full picture, or null.
   readPixel(x, y) {
+    const header = this.renderer.header('current');
+    if (!header) return null;
     this.#sum();
-    return this.renderer.readPixel(x, y);
+    const [width, height] = this.#view.pictureSize;
+    return this.renderer.readPixel((x * header.width) / width, (y * header.height) / height);
   }
 
   #draw() {

@@ -27,7 +27,9 @@ export class StageInput {
     stage.addEventListener('pointermove', (event) => this.#move(event));
     stage.addEventListener('pointerup', (event) => this.#up(event));
     stage.addEventListener('pointercancel', (event) => this.#forget(event));
-    stage.addEventListener('pointerleave', () => handlers.leave());
+    stage.addEventListener('pointerleave', (event) => {
+      if (event.pointerType === 'mouse') handlers.leave(); // after each touch, too
+    });
     stage.addEventListener('wheel', (event) => this.#wheel(event), { passive: false });
     stage.addEventListener('contextmenu', (event) => event.preventDefault());
     stage.addEventListener('dblclick', (event) => {

@@ -10,7 +10,7 @@ const kStatus = {
 const kNoticeMs = 4000;
 
 export class StatusBar {
-  #announced = '';
+  #spoken = ''; // status that was announced last
   #timer = 0;
   #lasting = ''; // notice that stays until it is cleared
   #report = '';
@@ -27,8 +27,16 @@ export class StatusBar {
     const rays = state.progress?.rays_per_second;
     byId('speed').textContent = state.status === 'rendering' && rays > 0
       ? `${formatCount(rays)} rays a second` : '';
-    this.#announce(state.status === 'rendering' ? kStatus.rendering : text);
+    const spoken = state.status === 'rendering' ? kStatus.rendering : text;
+    // Screen readers hear of changes of the status, not of each pass.
+    if (spoken !== this.#spoken) this.announce(spoken);
+    this.#spoken = spoken;
     this.#showReport(state);
+  }
+
+  /// Says a line to screen readers.
+  announce(text) {
+    byId('announcer').textContent = text;
   }
 
   /// A short word to the user that goes by itself.
@@ -64,13 +72,6 @@ export class StatusBar {
   #showNotice(text) {
     byId('notice').textContent = text;
     byId('notice').hidden = text === '';
-  }
-
-  // Screen readers hear of changes of the status, not of each pass.
-  #announce(text) {
-    if (text === this.#announced) return;
-    this.#announced = text;
-    byId('announcer').textContent = text;
   }
 
   #showReport({ warnings = [], notes = [], report = [] }) {

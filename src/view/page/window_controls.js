@@ -11,7 +11,7 @@ export function setUpWindow(view) {
   view.addEventListener('change', () => showZoom(view));
   byId('full-screen').addEventListener('click', () => {
     if (document.fullscreenElement) document.exitFullscreen();
-    else document.documentElement.requestFullscreen();
+    else document.documentElement.requestFullscreen?.(); // iPhones have none
   });
   byId('toggle-panels').addEventListener('click', togglePanels);
   byId('sheet-handle').addEventListener('click', togglePanels);

@@ -169,5 +169,22 @@ TEST(Frame, AFilmWithoutALayerLeavesItOut) {
   EXPECT_EQ(frame.header["layers"].size(), 1u);
 }
 
+TEST(Frame, NotFiniteValuesOfAPictureStayWhatTheyAre) {
+  Picture picture;
+  picture.full_width = 4;
+  picture.full_height = 1;
+  picture.window = {0, 0, 4, 1};
+  picture.channels = {"Z"};
+  picture.pixels = {std::nanf(""), kInfinity, -kInfinity, 2};
+  FrameInfo info;
+  info.window = picture.window;
+  const FrameLayerPtr layers[] = {frame_layer(picture, "Z", "Z", {"Z"})};
+  const Decoded frame = decode(encode_frame(info, layers, 0));
+  EXPECT_TRUE(std::isnan(frame.values[0]));
+  EXPECT_EQ(frame.values[1], kInfinity);
+  EXPECT_EQ(frame.values[2], -kInfinity);
+  EXPECT_EQ(frame.values[3] * layers[0]->scale, 2);
+}
+
 }  // namespace
 }  // namespace nephroid

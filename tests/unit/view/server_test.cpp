@@ -40,7 +40,7 @@ class GreySource final : public ViewSource {
     check_pixel(x, y, {0, 0, 2, 1});
     return {{0.5f, 0.5f, 0.5f}, {0, 0, 0}, 7};
   }
-  Picture colors() override {
+  Picture colors(const LayerGains&) override {
     Picture picture;
     picture.full_width = 2;
     picture.full_height = 1;
