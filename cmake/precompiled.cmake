@@ -10,7 +10,7 @@ set(precompiled_headers
 # Of the same concatenations g++ 12 warns in three further ways if <string> is precompiled.
 if(NEPHROID_PRECOMPILED AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(nephroid_flags INTERFACE -Wno-stringop-overflow -Wno-stringop-overread
-                         -Wno-array-bounds)
+                         -Wno-array-bounds -Wno-maybe-uninitialized)
 endif()
 
 # Without times in them, clang's precompiled headers are the same in every build, and so a compiler cache knows them.
