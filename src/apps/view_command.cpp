@@ -106,11 +106,10 @@ class Checkpoints {
 
 /// Waits for a signal; the scene is read again when its files change.
 void wait_for_end(LiveRender* live, Checkpoints& checkpoints, const SignalFlags& signals) {
-  WatchedFiles watched;
   for (int poll = 0; signals.stop.load() == 0; ++poll) {
     std::this_thread::sleep_for(kPoll);
     if (live == nullptr || poll % kPollsPerLook != 0) continue;
-    if (watched.have_changed(live->files())) live->reload();
+    if (have_changed(live->files())) live->reload();
     checkpoints.write_if_due();
   }
 }

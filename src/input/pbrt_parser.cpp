@@ -1,6 +1,8 @@
 // Combines the token stream, the directive parser and the scene builder.
 #include "input/pbrt_parser.h"
 
+#include <utility>
+
 #include "input/description_builder.h"
 #include "input/directives.h"
 #include "input/token_stream.h"
@@ -18,10 +20,11 @@ void parse(TokenStream& tokens, SceneDescription& scene, Diagnostics& diagnostic
 
 }  // namespace
 
-SceneDescription parse_pbrt_file(const std::string& path, Diagnostics& diagnostics) {
+SceneDescription parse_pbrt_file(const std::string& path, Diagnostics& diagnostics,
+                                 std::shared_ptr<SceneFiles> files) {
   SceneDescription scene;
   scene.file = shown_name(path);
-  scene.files = std::make_shared<SceneFiles>(directory_of_scene(path));
+  scene.files = files ? std::move(files) : files_of_scene(path);
   TokenStream tokens(*scene.files);
   tokens.open_scene(path);
   parse(tokens, scene, diagnostics);

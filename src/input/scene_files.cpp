@@ -26,7 +26,20 @@ std::string SceneFiles::path_of(const std::string& name) const {
   return (std::filesystem::path(directory_) / path).string();
 }
 
+void SceneFiles::note(const std::string& path) {
+  if ((path == kStandardInput && path == top_) || is_stream(path)) return;
+  const FileStamp stamp = stamp_of(path);
+  const std::lock_guard lock(mutex_);
+  stamps_.try_emplace(path, stamp);
+}
+
+FileStamps SceneFiles::stamps() const {
+  const std::lock_guard lock(mutex_);
+  return stamps_;
+}
+
 std::string SceneFiles::read(const std::string& path) {
+  note(path);
   try {
     std::string bytes =
         path == kStandardInput && path == top_ ? read_standard_input() : read_file_bytes(path);
@@ -46,6 +59,7 @@ std::string SceneFiles::counted_path_of(const std::string& name) {
     const std::lock_guard lock(mutex_);
     if (read_.contains(counted)) return path;
   }
+  note(path);
   try {
     const uint64_t hash = hash_file(path);
     const std::lock_guard lock(mutex_);
@@ -105,6 +119,12 @@ std::string directory_of_scene(const std::string& scene) {
   // /dev/stdin may be a file.
   const bool is_device = parent == "/dev" || parent == "/dev/fd" || parent == "/proc/self/fd";
   return scene == kStandardInput || is_device || is_stream(scene) ? "." : parent;
+}
+
+std::shared_ptr<SceneFiles> files_of_scene(const std::string& scene) {
+  auto files = std::make_shared<SceneFiles>(directory_of_scene(scene));
+  files->set_top(scene);
+  return files;
 }
 
 uint64_t hash_file(const std::string& path) {

@@ -1,5 +1,5 @@
-// The files of a scene: resolves names, and hashes the files that were read, as the identity of the
-// scene. It must not know the contents of files.
+// The files of a scene: resolves names, hashes the files that were read, as the identity of the
+// scene, and notes which files were wanted. It must not know the contents of files.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "input/file_stamp.h"
 
 namespace nephroid {
 
@@ -56,22 +58,32 @@ class SceneFiles {
   /// Names of all files that were read, without the scene's own; arguments for path_of.
   std::vector<std::string> names() const;
 
+  /// The files that were read or looked for, by path, as they were just before. Standard input,
+  /// pipes, and files in memory are left out.
+  FileStamps stamps() const;
+
   /// Sets the scene's own file, whose name does not count in the hash.
   void set_top(const std::string& path) { top_ = path; }
 
  private:
   /// The name of a path in the hash.
   std::string counted_name(const std::string& path) const;
+  /// Keeps the stamp of a file that is about to be read for the first time.
+  void note(const std::string& path);
 
   std::string directory_, top_;
   mutable std::mutex mutex_;
   std::map<std::string, uint64_t> read_;  ///< hash of the content by counted_name
+  FileStamps stamps_;
   std::map<std::string, std::shared_ptr<const std::string>> in_memory_;  ///< by name
 };
 
 /// The base directory of names in a scene: the scene's own, or the current one for standard input
 /// and pipes.
 std::string directory_of_scene(const std::string& scene);
+
+/// The files of a scene that is still to be read.
+std::shared_ptr<SceneFiles> files_of_scene(const std::string& scene);
 
 /// ContentHash of a file's bytes. Pipes and devices are not read, since they can be read only once
 /// or never end: they hash as empty. Throws IoError if the file cannot be read.

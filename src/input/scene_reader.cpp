@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "input/file_bytes.h"
 #include "input/gltf/gltf_reader.h"
@@ -16,13 +17,13 @@ namespace {
 struct SceneFormat {
   const char* suffix;  ///< end of the file's name, in lower case
   SceneDescription (*read)(const std::string& path, const ImportOptions& options,
-                           Diagnostics& diagnostics);
+                           Diagnostics& diagnostics, std::shared_ptr<SceneFiles> files);
   FormatTraits traits;
 };
 
-SceneDescription read_pbrt(const std::string& path, const ImportOptions&,
-                           Diagnostics& diagnostics) {
-  return parse_pbrt_file(path, diagnostics);
+SceneDescription read_pbrt(const std::string& path, const ImportOptions&, Diagnostics& diagnostics,
+                           std::shared_ptr<SceneFiles> files) {
+  return parse_pbrt_file(path, diagnostics, std::move(files));
 }
 
 /// Surfaces of glTF that emit up to 1, more than which needs an extension, are displays and the
@@ -85,10 +86,10 @@ bool is_pbrt_scene(const std::string& path) {
 }
 
 SceneDescription read_scene(const std::string& path, const ImportOptions& options,
-                            Diagnostics& diagnostics) {
+                            Diagnostics& diagnostics, std::shared_ptr<SceneFiles> files) {
   const SceneFormat& format = format_of(path);
   warn_of_foreign_options(format, path, options, diagnostics);
-  SceneDescription scene = format.read(path, options, diagnostics);
+  SceneDescription scene = format.read(path, options, diagnostics, std::move(files));
   warn_of_missing_choices(scene, options, diagnostics);
   stage_scene(&scene, format.traits, options, diagnostics);
   return scene;

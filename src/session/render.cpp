@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "core/counted.h"
 #include "film/film_settings.h"
@@ -102,8 +103,8 @@ SceneOverrides scene_overrides(const RenderRequest& request) {
   return overrides;
 }
 
-LoadedScene load_scene(const RenderRequest& request) {
-  return load_scene(request.scene, scene_overrides(request));
+LoadedScene load_scene(const RenderRequest& request, std::shared_ptr<SceneFiles> files) {
+  return load_scene(request.scene, scene_overrides(request), std::move(files));
 }
 
 LoadedScene load_small_scene(const RenderRequest& request, int longest_side) {

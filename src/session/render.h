@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,8 +40,8 @@ struct RenderWarnings {
 
 /// The request's changes to the scene file.
 SceneOverrides scene_overrides(const RenderRequest& request);
-/// The scene of a request. Throws SceneError and IoError.
-LoadedScene load_scene(const RenderRequest& request);
+/// The scene of a request. Throws SceneError and IoError. `files` as for read_scene().
+LoadedScene load_scene(const RenderRequest& request, std::shared_ptr<SceneFiles> files = nullptr);
 /// The same with a picture whose longer side has at most `longest_side` pixels.
 LoadedScene load_small_scene(const RenderRequest& request, int longest_side);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 #include "input/scene_reader.h"
 #include "scene/film_description.h"
@@ -24,10 +25,12 @@ LoadedScene build(SceneDescription description, const SceneOverrides& overrides,
 
 }  // namespace
 
-LoadedScene load_scene(const std::string& file, const SceneOverrides& overrides) {
+LoadedScene load_scene(const std::string& file, const SceneOverrides& overrides,
+                       std::shared_ptr<SceneFiles> files) {
   Diagnostics diagnostics;
   try {
-    return build(read_scene(file, overrides.import, diagnostics), overrides, diagnostics);
+    return build(read_scene(file, overrides.import, diagnostics, std::move(files)), overrides,
+                 diagnostics);
   } catch (const std::bad_alloc&) {
     throw IoError(file + ": the scene does not fit into memory");
   }

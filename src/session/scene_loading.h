@@ -17,8 +17,9 @@ struct LoadedScene {
   std::vector<std::string> unknown_names;  ///< warnings about names that the format lacks
 };
 
-/// Throws SceneError and IoError.
-LoadedScene load_scene(const std::string& file, const SceneOverrides& overrides);
+/// Throws SceneError and IoError. `files` as for read_scene().
+LoadedScene load_scene(const std::string& file, const SceneOverrides& overrides,
+                       std::shared_ptr<SceneFiles> files = nullptr);
 /// The same with a picture whose longer side has at most `longest_side` pixels.
 LoadedScene load_small_scene(const std::string& file, SceneOverrides overrides, int longest_side);
 

@@ -21,6 +21,7 @@
 #include "view/inspection_json.h"
 #include "view/json_text.h"
 #include "view/live_render.h"
+#include "view/saved_file.h"
 #include "view/temporary_directory.h"
 #include "view/view_requests.h"
 
@@ -32,7 +33,7 @@ namespace fs = std::filesystem;
 constexpr int64_t kMaxUploadedValues = int64_t{1} << 28;  ///< pixels times channels
 constexpr size_t kMaxLayers = 64;
 constexpr double kLongestWaitForPicture = 1;  ///< seconds
-constexpr const char* kBinary = "application/octet-stream";
+constexpr const char *kBinary = "application/octet-stream", *kText = "text/plain; charset=utf-8";
 
 Answer json_answer(const Json& json) {
   Answer answer;
@@ -74,16 +75,6 @@ std::string safe_stem(const std::string& name) {
   return stem.empty() || stem.front() == '.' ? "picture" : stem;
 }
 
-/// A path in the directory that no file has yet.
-fs::path free_path(const std::string& directory, const std::string& name) {
-  const fs::path wanted = fs::path(directory) / name;
-  fs::path path = wanted;
-  for (int i = 2; fs::exists(path); ++i)
-    path = fs::path(directory) /
-           fmt::format("{}-{}{}", wanted.stem().string(), i, wanted.extension().string());
-  return path;
-}
-
 Answer png_answer(const std::vector<uint8_t>& png) {
   Answer answer;
   answer.type = "image/png";
@@ -103,11 +94,10 @@ SceneDescription view_of(LiveRender& live) {
   return view;
 }
 
-Answer text_answer(std::string body, const std::string& file_name) {
+Answer text_answer(std::string body) {
   Answer answer;
-  answer.type = "text/plain; charset=utf-8";
+  answer.type = kText;
   answer.body = std::move(body);
-  answer.file_name = file_name;
   return answer;
 }
 
@@ -214,18 +204,13 @@ Answer Answers::heat(const Parameters& parameters, const std::string&) {
   return png_answer(png);
 }
 
-Answer Answers::deliver(const std::string& path, const std::string& name,
-                        const std::string& type) const {
-  if (!save_directory_.empty()) {
-    const fs::path saved = free_path(save_directory_, name);
-    std::error_code error;
-    fs::copy_file(path, saved, error);
-    if (error) throw IoError(saved.string() + ": cannot write: " + error.message());
-    return json_answer({{"saved", saved.string()}});
-  }
+Answer Answers::deliver(std::string bytes, const std::string& name, const std::string& type) const {
+  if (!save_directory_.empty())
+    return json_answer(
+        {{"saved", save_new_file(save_directory_, name, std::as_bytes(std::span(bytes)))}});
   Answer answer;
   answer.type = type;
-  answer.body = read_file_bytes(path);
+  answer.body = std::move(bytes);
   answer.file_name = name;
   return answer;
 }
@@ -233,7 +218,7 @@ Answer Answers::deliver(const std::string& path, const std::string& name,
 Answer Answers::save(const Parameters& parameters, const std::string&) {
   const std::string kind = text(parameters, "kind");
   const std::string stem = safe_stem(source_.state().name);
-  if (kind == "camera") return text_answer(camera_text(view_of(live())), "");
+  if (kind == "camera") return text_answer(camera_text(view_of(live())));
   if (kind == "scene") return save_scene(stem + "-view.pbrt");
   if (kind != "exr" && kind != "png")
     throw UsageError("kind: '" + kind + "' is not valid, expected exr, png, scene or camera");
@@ -243,8 +228,9 @@ Answer Answers::save(const Parameters& parameters, const std::string&) {
   if (const std::string mix = text(parameters, "mix"); !mix.empty())
     write_picture(exr, mixed(read_picture(exr), parse_mix(mix, mix_layers(read_picture_head(exr)))),
                   1);
-  if (kind == "png") return deliver(png_path_beside(exr), stem + ".png", "image/png");
-  return deliver(exr, stem + ".exr", "image/x-exr");
+  if (kind == "png")
+    return deliver(read_file_bytes(png_path_beside(exr)), stem + ".png", "image/png");
+  return deliver(read_file_bytes(exr), stem + ".exr", "image/x-exr");
 }
 
 Answer Answers::save_scene(const std::string& file_name) {
@@ -252,12 +238,8 @@ Answer Answers::save_scene(const std::string& file_name) {
   if (!is_pbrt_scene(scene.string()) || scene == kStandardInput)
     throw UsageError(
         "only a pbrt scene in a file can be included, expected one: nephroid convert makes it");
-  const std::string text = scene_text_with_camera(view_of(live()), scene.filename().string());
-  if (save_directory_.empty()) return text_answer(text, file_name);
-  const TemporaryDirectory directory;
-  const std::string path = directory.file(file_name);
-  write_file_atomically(path, std::as_bytes(std::span(text)));
-  return deliver(path, file_name, "text/plain");
+  return deliver(scene_text_with_camera(view_of(live()), scene.filename().string()), file_name,
+                 kText);
 }
 
 Answer Answers::camera(const Parameters&, const std::string& body) {

@@ -55,8 +55,8 @@ class Answers {
   Picture shown(const Parameters& parameters);
   Answer comparison_frame(const std::string& id) const;
   Answer save_scene(const std::string& file_name);
-  /// Sends a file as a download, or moves it to the directory of saves.
-  Answer deliver(const std::string& path, const std::string& name, const std::string& type) const;
+  /// Sends a file as a download, or puts it into the directory of saves.
+  Answer deliver(std::string bytes, const std::string& name, const std::string& type) const;
 
   ViewSource& source_;
   Comparisons& comparisons_;

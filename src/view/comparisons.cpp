@@ -21,6 +21,13 @@ HeatColor flip_color(double flip) {
   return heat_color(kHeatMin * std::pow(kHeatMax / kHeatMin, std::clamp(flip, 0.0, 1.0)));
 }
 
+void check_same_size(const Picture& reference, const Picture& test) {
+  if (reference.width() != test.width() || reference.height() != test.height())
+    throw UsageError(
+        fmt::format("the picture to compare with has {} x {} pixels, expected {} x {} as here",
+                    reference.width(), reference.height(), test.width(), test.height()));
+}
+
 }  // namespace
 
 Picture color_picture(const Film& film) {
@@ -99,11 +106,13 @@ std::shared_ptr<const Picture> Comparisons::find(const std::string& id) const {
 }
 
 Distance distance(const Picture& reference, const Picture& test) {
+  check_same_size(reference, test);
   return {compare_pictures(reference, test, {}).relmse, flip(reference, test, kExposure)};
 }
 
 std::vector<uint8_t> heat_png(const Picture& reference, const Picture& test,
                               const std::string& kind) {
+  check_same_size(reference, test);
   const int width = reference.width(), height = reference.height();
   if (kind == "relmse") return encode_png(width, height, heat_map(reference, test));
   if (kind != "flip")

@@ -53,7 +53,7 @@ class Comparisons {
 /// Throws UsageError if the sizes differ.
 Distance distance(const Picture& reference, const Picture& test);
 /// The squared relative error of each pixel ("relmse") or FLIP ("flip") in false colours, as a PNG
-/// file. Throws UsageError for another kind.
+/// file. Throws UsageError for another kind, and if the sizes differ.
 std::vector<uint8_t> heat_png(const Picture& reference, const Picture& test,
                               const std::string& kind);
 

@@ -96,6 +96,14 @@ LiveSettings settings_of(const RenderRequest& request, const Render& render, con
   return settings;
 }
 
+std::vector<std::string> known_layers(const std::vector<LiveLayer>& layers,
+                                      const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const std::string& name : names)
+    if (std::ranges::find(layers, name, &LiveLayer::name) != layers.end()) known.push_back(name);
+  return known;
+}
+
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);

@@ -19,6 +19,10 @@ void describe(const Render& render, const LoadedScene& loaded, bool is_preview, 
 LiveSettings settings_of(const RenderRequest& request, const Render& render, const Scene& scene,
                          const FilmDescription& full);
 
+/// Those of the names that are names of layers.
+std::vector<std::string> known_layers(const std::vector<LiveLayer>& layers,
+                                      const std::vector<std::string>& names);
+
 /// The lines of a text, without the newlines.
 std::vector<std::string> lines_of(const std::string& text);
 /// Reasons as one text.

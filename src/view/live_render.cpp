@@ -7,18 +7,18 @@
 #include <csignal>
 
 #include "core/errors.h"
+#include "input/file_bytes.h"
 #include "input/scene_files.h"
 #include "integrator/presets/integrator_table.h"
 #include "integrator/presets/route_presets.h"
 #include "scene/scene_view.h"
 #include "view/describe_render.h"
+#include "view/live_requests.h"
 #include "view/thread_priority.h"
 
 namespace nephroid {
 namespace {
 
-/// Without a stop rule a view renders until it is closed.
-constexpr uint32_t kEndlessPasses = 1u << 30;
 constexpr double kLongestWaitForRest = 20;  ///< seconds
 /// While the camera moves, the resolution is such that the first picture takes about so long.
 constexpr double kPreviewSeconds = 0.035;
@@ -29,45 +29,14 @@ double steady_seconds() {
   return std::chrono::duration<double>(now).count();
 }
 
-std::chrono::duration<double> seconds(double value) {
-  return std::chrono::duration<double>(value);
-}
-
-/// The request of an edit: endless unless a rule was given.
-RenderRequest request_of(const RenderRequest& request) {
-  RenderRequest result = request;
-  RenderOptions& options = result.options;
-  result.resume_from = options.output;
-  options.output.clear();
-  if (!options.last_pass && !(options.time_limit > 0) && !(options.noise_target > 0))
-    options.last_pass = kEndlessPasses;
-  return result;
-}
-
-/// A quick, coarse version of a request.
-RenderRequest preview_of(const RenderRequest& request, const FilmDescription& full, double edge) {
-  RenderRequest preview = request_of(request);
-  const double scale = std::min(1.0, edge / std::max(full.width, full.height));
-  preview.overrides.width = std::max(1, static_cast<int>(std::lround(full.width * scale)));
-  preview.overrides.height = std::max(1, static_cast<int>(std::lround(full.height * scale)));
-  // The crop of the full picture, whichever way it was given.
-  preview.overrides.has_crop = true;
-  const int crop[4] = {full.crop_x0, full.crop_x1, full.crop_y0, full.crop_y1};
-  for (int i = 0; i < 4; ++i) {
-    const int full_edge = i < 2 ? full.width : full.height;
-    const int edge_now = i < 2 ? preview.overrides.width : preview.overrides.height;
-    const double at = 1.0 * crop[i] / full_edge * edge_now;
-    // Rounded outwards, so at least one pixel is left.
-    const double pixel = i % 2 == 0 ? std::floor(at) : std::ceil(at);
-    preview.overrides.crop[i] = static_cast<float>(pixel / edge_now);
+/// True if the scene's camera can have this pose. Types differ in their parameters.
+bool can_be_camera(SceneDescription trial, const CameraPose& pose) {
+  try {
+    set_camera(&trial, pose);
+    return true;
+  } catch (const UsageError&) {
+    return false;
   }
-  preview.routes = {};
-  preview.routes.integrator = "path";
-  preview.reject_outliers = false;
-  preview.options.show_error = false;
-  preview.options.time_limit = preview.options.noise_target = 0;
-  preview.options.last_pass = kEndlessPasses;
-  return preview;
 }
 
 }  // namespace
@@ -76,7 +45,6 @@ LiveRender::LiveRender(RenderRequest request) : preview_edge_(kFirstPreviewEdge)
   state_.name = request.scene;
   edits_.request = std::move(request);
   state_.generation = edits_.generation;
-  files_ = {state_.name};
   thread_ = std::thread([this] { work(); });
 }
 
@@ -97,7 +65,8 @@ LiveState LiveRender::state() const {
 
 uint64_t LiveRender::wait_for_news(uint64_t seen, double longest) const {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, seconds(longest), [&] { return news_ != seen || is_ending_; });
+  changed_.wait_for(lock, std::chrono::duration<double>(longest),
+                    [&] { return news_ != seen || is_ending_; });
   return news_;
 }
 
@@ -106,7 +75,7 @@ bool LiveRender::is_edited() const {
   return edits_.is_edited;
 }
 
-std::vector<std::string> LiveRender::files() const {
+FileStamps LiveRender::files() const {
   const std::lock_guard lock(mutex_);
   return files_;
 }
@@ -114,6 +83,9 @@ std::vector<std::string> LiveRender::files() const {
 uint64_t LiveRender::note_edit() {
   is_paused_ = false;
   signals_.stop = SIGINT;
+  // The status before was that of another generation.
+  if (state_.status != LiveStatus::kLoading) state_.status = LiveStatus::kRendering;
+  state_.message.clear();
   ++news_;
   changed_.notify_all();
   return state_.generation = ++edits_.generation;
@@ -154,7 +126,9 @@ uint64_t LiveRender::change(const RenderChange& change) {
 void LiveRender::reload() {
   const std::lock_guard lock(mutex_);
   edits_.reloads = true;
+  files_.clear();
   edits_.is_moving = false;
+  state_.status = LiveStatus::kLoading;
   note_edit();
 }
 
@@ -169,9 +143,11 @@ void LiveRender::at_rest(std::function<void(const RenderAtRest&)> run) {
   ticket->wait(kLongestWaitForRest);
 }
 
-std::optional<std::string> LiveRender::frame(const std::vector<std::string>& layers,
+std::optional<std::string> LiveRender::frame(const std::vector<std::string>& names,
                                              uint64_t generation, uint64_t since) {
   if (frames_.version() == 0) return std::nullopt;
+  // Others would be asked for at rest, and kept as wishes.
+  const std::vector<std::string> layers = known_layers(state().layers, names);
   if (!frames_.want(layers, steady_seconds()) && state().status != LiveStatus::kFailed)
     at_rest([&](const RenderAtRest& rest) {
       const bool has_pixels = rest.render.film().can_be_shown();
@@ -229,9 +205,19 @@ void LiveRender::publish(const std::function<void(LiveState&)>& change) {
   changed_.notify_all();
 }
 
+void LiveRender::publish_status(LiveStatus status, const std::string& message) {
+  publish([&](LiveState& state) {
+    if (must_stop()) return;
+    state.status = status;
+    state.message = message;
+  });
+}
+
 LiveRender::Edits LiveRender::take_edits() {
   const std::lock_guard lock(mutex_);
   signals_.stop = is_ending_ ? SIGINT : 0;
+  // The render before may have taken the request to pause.
+  if (is_paused_) signals_.write = true;
   taken_generation_ = edits_.generation;
   Edits edits = edits_;
   edits_.reloads = false;
@@ -245,15 +231,12 @@ bool LiveRender::must_stop() const {
 void LiveRender::work() {
   give_way_to_others();
   while (true) {
-    const Edits edits = take_edits();
+    Edits edits = take_edits();
     try {
       if (edits.reloads || !loaded_) load(edits);
       render(edits);
     } catch (const std::exception& error) {
-      publish([&](LiveState& state) {
-        state.status = LiveStatus::kFailed;
-        state.message = error.what();
-      });
+      publish_status(LiveStatus::kFailed, error.what());
       refuse_tasks_until_edited(error.what());
     }
     const std::lock_guard lock(mutex_);
@@ -262,34 +245,54 @@ void LiveRender::work() {
   tasks_.refuse("the view is closed");
 }
 
-void LiveRender::load(const Edits& edits) {
-  publish([](LiveState& state) {
+LoadedScene LiveRender::read_scene_of(const RenderRequest& request) {
+  const std::string& name = request.scene;
+  const bool can_be_read_again = name != kStandardInput && !is_stream(name);
+  const std::shared_ptr<SceneFiles> files = files_of_scene(name);
+  const auto watch_files = [&] {
+    const std::lock_guard lock(mutex_);
+    if (can_be_read_again) files_ = files->stamps();
+  };
+  try {
+    LoadedScene loaded = load_scene(request, files);
+    watch_files();
+    return loaded;
+  } catch (...) {
+    watch_files();
+    throw;
+  }
+}
+
+void LiveRender::load(Edits& edits) {
+  publish([this](LiveState& state) {
     state.status = LiveStatus::kLoading;
     state.message.clear();
+    files_.clear();
   });
   loaded_.reset();
-  loaded_ = load_scene(edits.request);
+  loaded_ = read_scene_of(edits.request);
   const SceneDescription& description = loaded_->description;
   own_camera_ = description.camera;
   const std::lock_guard lock(mutex_);
-  if (!edits_.camera) state_.camera = camera_pose(description, *loaded_->scene);
   camera_scene_.camera = description.camera;
   camera_scene_.film = description.film;
   is_loaded_ = true;
-  files_ = {edits.request.scene};
-  const SceneFiles& files = *description.files;
-  for (const std::string& name : files.names()) files_.push_back(files.path_of(name));
+  if (edits_.camera && !can_be_camera(camera_scene_, *edits_.camera)) {
+    edits_.camera.reset();
+    edits.camera.reset();
+  }
+  if (!edits_.camera) state_.camera = camera_pose(description, *loaded_->scene);
 }
 
 void LiveRender::render(const Edits& edits) {
   loaded_->description.camera = own_camera_;
   if (edits.camera) set_camera(&loaded_->description, *edits.camera);
   Diagnostics diagnostics;
-  RenderRequest request = request_of(edits.request);
+  RenderRequest request = full_request(edits.request);
   renew_camera(*loaded_->scene, loaded_->description, scene_overrides(request), diagnostics);
   const FilmDescription full = loaded_->scene->film;
   if (edits.is_moving) {
-    request = preview_of(edits.request, full, preview_edge_);
+    request = preview_request(edits.request, full, preview_edge_);
     renew_camera(*loaded_->scene, loaded_->description, scene_overrides(request), diagnostics);
   }
 
@@ -302,20 +305,19 @@ void LiveRender::render(const Edits& edits) {
   has_rendered_ = true;
   publish([&](LiveState& state) {
     describe(render, *loaded_, edits.is_moving, &state);
-    state.status = LiveStatus::kRendering;
-    state.message.clear();
+    const std::string integrator = state.settings.integrator;
     state.settings = settings_of(edits.request, render, *loaded_->scene, full);
+    // Previews have an integrator of their own.
+    if (edits.is_moving) state.settings.integrator = edits.request.routes.integrator_or(integrator);
     if (!edits.is_moving) state.warnings = texts;
   });
+  publish_status(LiveStatus::kRendering);
   connect(render, edits, std::max(kMinPreviewEdge, 1.0 * std::max(full.width, full.height)));
   const RenderResult result = render.run(signals_);
   const RenderAtRest rest{render, *loaded_, edits.generation, edits.is_moving, edits.is_edited};
   if (result.reason != StopReason::kSignal) {
     renew_report(render);
-    publish([&](LiveState& state) {
-      state.status = LiveStatus::kDone;
-      state.message = stop_reason_text(result.reason);
-    });
+    publish_status(LiveStatus::kDone, stop_reason_text(result.reason));
   }
   rest_until_edited(rest);
 }
@@ -367,14 +369,14 @@ void LiveRender::rest_while_paused(const RenderAtRest& rest) {
   };
   if (!is_at_rest()) return;
   const double begin = steady_seconds();
-  publish([](LiveState& state) { state.status = LiveStatus::kPaused; });
+  publish_status(LiveStatus::kPaused);
   while (is_at_rest()) {
     tasks_.serve(rest);
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !is_paused_ || must_stop() || !tasks_.empty(); });
   }
   paused_seconds_ += steady_seconds() - begin;
-  publish([](LiveState& state) { state.status = LiveStatus::kRendering; });
+  publish_status(LiveStatus::kRendering);
 }
 
 void LiveRender::rest_until_edited(const RenderAtRest& rest) {

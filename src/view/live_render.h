@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "input/file_stamp.h"
 #include "session/render.h"
 #include "view/frame_store.h"
 #include "view/rest_tasks.h"
@@ -48,8 +49,10 @@ class LiveRender final : public ViewSource {
 
   /// True if camera or settings are not those that the view began with.
   bool is_edited() const;
-  /// The scene's file and all files that it reads, as far as they are known.
-  std::vector<std::string> files() const;
+  /// The files of the scene as they were when it was read, those that it looked for included, also
+  /// if it could not be read. Empty while it is read, and for a scene from a pipe, which cannot be
+  /// read again.
+  FileStamps files() const;
 
   /// Calls `task` on the render's thread as soon as no pixel is rendered, and returns after it.
   /// Passes on its exceptions. Throws UsageError if nothing can be rendered, or if it takes longer
@@ -73,7 +76,9 @@ class LiveRender final : public ViewSource {
 
   /// The render's thread.
   void work();
-  void load(const Edits& edits);
+  /// A camera of the user that the scene's type of camera cannot be is taken out of `edits`.
+  void load(Edits& edits);
+  LoadedScene read_scene_of(const RenderRequest& request);
   void render(const Edits& edits);
   /// Connects a render with state, frames and tasks.
   /// The pictures of a moving camera have at most `longest_edge` pixels in their longer side.
@@ -88,6 +93,8 @@ class LiveRender final : public ViewSource {
   /// Counts an edit; the lock is held.
   uint64_t note_edit();
   void publish(const std::function<void(LiveState&)>& change);
+  /// Nothing is published after an edit, whose status is set already.
+  void publish_status(LiveStatus status, const std::string& message = {});
   void renew_report(Render& render);
 
   mutable std::mutex mutex_;
@@ -99,7 +106,7 @@ class LiveRender final : public ViewSource {
   bool is_ending_ = false, is_paused_ = false;
   SceneDescription camera_scene_;  ///< camera and film of the scene alone, to try edits
   bool is_loaded_ = false;
-  std::vector<std::string> files_;
+  FileStamps files_;
   SignalFlags signals_;  ///< of the present run
   RestTasks tasks_;
   FrameStore frames_;

@@ -53,6 +53,12 @@ std::vector<LiveLayer> layers_of(const Picture& picture) {
   return layers;
 }
 
+/// A number of samples from a file, which may hold anything.
+uint64_t count_of(float value) {
+  constexpr float kMaxCount = 1e18f;
+  return value > 0 ? static_cast<uint64_t>(std::min(value, kMaxCount)) : 0;
+}
+
 }  // namespace
 
 PictureSource::PictureSource(const std::string& path) : picture_(read_picture(path)) {
@@ -122,7 +128,7 @@ ProbedPixel PictureSource::probe(int x, int y) {
   probed.value = {value(pixel, "R"), value(pixel, "G"), value(pixel, "B")};
   probed.standard_error = {value(pixel, "stderr.R"), value(pixel, "stderr.G"),
                            value(pixel, "stderr.B")};
-  probed.samples = static_cast<uint64_t>(std::max(0.0f, value(pixel, "samples")));
+  probed.samples = count_of(value(pixel, "samples"));
   return probed;
 }
 

@@ -1,6 +1,7 @@
 #include "view/rest_tasks.h"
 
 #include <chrono>
+#include <utility>
 
 #include "core/errors.h"
 
@@ -33,16 +34,13 @@ bool RestTasks::empty() const {
   return tasks_.empty();
 }
 
-std::shared_ptr<RestTasks::Ticket> RestTasks::take() {
+std::deque<std::shared_ptr<RestTasks::Ticket>> RestTasks::take_all() {
   const std::lock_guard lock(mutex_);
-  if (tasks_.empty()) return nullptr;
-  std::shared_ptr<Ticket> ticket = std::move(tasks_.front());
-  tasks_.pop_front();
-  return ticket;
+  return std::exchange(tasks_, {});
 }
 
 void RestTasks::serve(const RenderAtRest& rest) {
-  while (const std::shared_ptr<Ticket> ticket = take()) {
+  for (const std::shared_ptr<Ticket>& ticket : take_all()) {
     if (!ticket->begin()) continue;
     try {
       ticket->run_(rest);
@@ -54,7 +52,7 @@ void RestTasks::serve(const RenderAtRest& rest) {
 }
 
 void RestTasks::refuse(const std::string& why) {
-  while (const std::shared_ptr<Ticket> ticket = take())
+  for (const std::shared_ptr<Ticket>& ticket : take_all())
     if (ticket->begin()) ticket->done_.set_exception(std::make_exception_ptr(UsageError(why)));
 }
 

@@ -30,13 +30,14 @@ class RestTasks {
   class Ticket;
   std::shared_ptr<Ticket> add(Run run);
   bool empty() const;
-  /// Runs the tasks that wait. Their exceptions go to those who wait for them.
+  /// Runs the tasks that wait now, not those that are added meanwhile: who asks without a pause
+  /// must not keep the render from its work. Their exceptions go to those who wait for them.
   void serve(const RenderAtRest& rest);
   /// Throws UsageError with this text at those who wait.
   void refuse(const std::string& why);
 
  private:
-  std::shared_ptr<Ticket> take();
+  std::deque<std::shared_ptr<Ticket>> take_all();
 
   mutable std::mutex mutex_;
   std::deque<std::shared_ptr<Ticket>> tasks_;

@@ -14,7 +14,7 @@ std::string ViewCheckpoint::write(LiveRender& live) {
   } catch (const UsageError& error) {
     return fmt::format("{} was not written: {}", output_, error.what());
   }
-  if (*was_edited_)
+  if (is_edited_)
     return fmt::format("wrote {}; camera or settings were changed, so --resume cannot go on",
                        output_);
   return fmt::format("wrote {} and {}, with which --resume goes on", output_,
@@ -22,10 +22,13 @@ std::string ViewCheckpoint::write(LiveRender& live) {
 }
 
 void ViewCheckpoint::write(const RenderAtRest& rest) {
-  const bool continues = was_edited_ ? *was_edited_ == rest.is_edited : rest.render.has_resumed();
+  const bool continues = generation_ ? *generation_ == rest.generation : rest.render.has_resumed();
   if (!continues) keep_files(output_);
+  // Noted before the files are written: if that fails, the next attempt must not put what this one
+  // has left in the place of the files that were kept.
+  generation_ = rest.generation;
+  is_edited_ = rest.is_edited;
   rest.render.save(output_, !rest.is_edited);
-  was_edited_ = rest.is_edited;
 }
 
 }  // namespace nephroid

@@ -1,21 +1,12 @@
-// Tells when files change. It must not know what is in them.
+// Tells when files have changed since they were read. It must not know what is in them.
 #pragma once
 
-#include <filesystem>
-#include <map>
-#include <string>
-#include <vector>
+#include "input/file_stamp.h"
 
 namespace nephroid {
 
-class WatchedFiles {
- public:
-  /// True if one of the files has another time of change than in the last call. Files that were not
-  /// watched before, or that do not exist, do not count.
-  bool have_changed(const std::vector<std::string>& files);
-
- private:
-  std::map<std::string, std::filesystem::file_time_type> times_;
-};
+/// True if one of the files has changed since it had this stamp, or has appeared. One that is
+/// missing now does not count: an editor may just be replacing it.
+bool have_changed(const FileStamps& as_read);
 
 }  // namespace nephroid

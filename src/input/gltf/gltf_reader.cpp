@@ -3,6 +3,7 @@
 #include "input/gltf/gltf_reader.h"
 
 #include <new>
+#include <utility>
 
 #include "input/gltf/cameras.h"
 #include "input/gltf/choices.h"
@@ -21,11 +22,10 @@ void check_version(const gltf::Document& document) {
 }
 
 SceneDescription read(const std::string& path, const ImportOptions& options,
-                      Diagnostics& diagnostics) {
+                      Diagnostics& diagnostics, std::shared_ptr<SceneFiles> files) {
   SceneDescription scene;
   scene.file = path;
-  scene.files = std::make_shared<SceneFiles>(directory_of_scene(path));
-  scene.files->set_top(path);
+  scene.files = files ? std::move(files) : files_of_scene(path);
   gltf::Document document(path, *scene.files, options, diagnostics);
   check_version(document);
   gltf::check_extensions(document);
@@ -42,9 +42,9 @@ SceneDescription read(const std::string& path, const ImportOptions& options,
 }  // namespace
 
 SceneDescription read_gltf(const std::string& path, const ImportOptions& options,
-                           Diagnostics& diagnostics) {
+                           Diagnostics& diagnostics, std::shared_ptr<SceneFiles> files) {
   try {
-    return read(path, options, diagnostics);
+    return read(path, options, diagnostics, std::move(files));
   } catch (const std::bad_alloc&) {
     throw SceneError({std::make_shared<const std::string>(path), 0, 0},
                      "the file does not fit into memory");

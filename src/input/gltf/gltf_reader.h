@@ -9,8 +9,8 @@
 namespace nephroid {
 
 /// Throws IoError if the file cannot be read, and SceneError with the file and a JSON pointer if
-/// its contents are wrong.
+/// its contents are wrong. `files` become those of the scene; null: new ones.
 SceneDescription read_gltf(const std::string& path, const ImportOptions& options,
-                           Diagnostics& diagnostics);
+                           Diagnostics& diagnostics, std::shared_ptr<SceneFiles> files = nullptr);
 
 }  // namespace nephroid

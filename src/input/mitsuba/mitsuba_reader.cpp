@@ -1,5 +1,6 @@
 #include "input/mitsuba/mitsuba_reader.h"
 
+#include <utility>
 #include <vector>
 
 #include "core/counted.h"
@@ -87,10 +88,10 @@ void warn_of_one_sided(const ImportContext& context) {
 }  // namespace
 
 SceneDescription read_mitsuba(const std::string& path, const ImportOptions& options,
-                              Diagnostics& diagnostics) {
+                              Diagnostics& diagnostics, std::shared_ptr<SceneFiles> files) {
   SceneDescription scene;
   scene.file = shown_name(path);
-  scene.files = std::make_shared<SceneFiles>(directory_of_scene(path));
+  scene.files = files ? std::move(files) : files_of_scene(path);
   const Document document = read_document(path, *scene.files, options, diagnostics);
   add_choices(document, scene.choices);
   ImportContext context{scene, document.file_names, diagnostics, document.version};

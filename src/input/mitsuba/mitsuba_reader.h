@@ -9,8 +9,10 @@
 namespace nephroid {
 
 /// The camera is `options.camera`, by id or index, else the first. Throws IoError if the scene
-/// cannot be read and SceneError if its contents are wrong.
+/// cannot be read and SceneError if its contents are wrong. `files` become those of the scene;
+/// null: new ones.
 SceneDescription read_mitsuba(const std::string& path, const ImportOptions& options,
-                              Diagnostics& diagnostics);
+                              Diagnostics& diagnostics,
+                              std::shared_ptr<SceneFiles> files = nullptr);
 
 }  // namespace nephroid

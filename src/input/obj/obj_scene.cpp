@@ -17,11 +17,11 @@ constexpr double kClay = 0.6;  ///< reflectance of faces without a material
 
 class ObjScene {
  public:
-  ObjScene(const std::string& path, const ImportOptions& options, Diagnostics& diagnostics)
+  ObjScene(const std::string& path, const ImportOptions& options, Diagnostics& diagnostics,
+           std::shared_ptr<SceneFiles> files)
       : options_(options), diagnostics_(diagnostics) {
     scene_.file = path;
-    scene_.files = std::make_shared<SceneFiles>(directory_of_scene(path));
-    scene_.files->set_top(path);
+    scene_.files = files ? std::move(files) : files_of_scene(path);
   }
 
   SceneDescription read() {
@@ -103,8 +103,8 @@ void ObjScene::add_shape(const ObjPart& part) {
 }  // namespace
 
 SceneDescription read_obj_scene(const std::string& path, const ImportOptions& options,
-                                Diagnostics& diagnostics) {
-  return ObjScene(path, options, diagnostics).read();
+                                Diagnostics& diagnostics, std::shared_ptr<SceneFiles> files) {
+  return ObjScene(path, options, diagnostics, std::move(files)).read();
 }
 
 }  // namespace nephroid

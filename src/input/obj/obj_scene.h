@@ -10,7 +10,9 @@ namespace nephroid {
 
 /// Reads an OBJ file and the MTL files that it names. Throws IoError if it cannot be read and
 /// SceneError if its contents are wrong. A missing MTL file is a warning.
+/// `files` become those of the scene; null: new ones.
 SceneDescription read_obj_scene(const std::string& path, const ImportOptions& options,
-                                Diagnostics& diagnostics);
+                                Diagnostics& diagnostics,
+                                std::shared_ptr<SceneFiles> files = nullptr);
 
 }  // namespace nephroid

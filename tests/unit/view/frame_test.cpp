@@ -1,17 +1,20 @@
 // Frames as the page gets them.
 #include "view/frame.h"
 
-#include <Imath/half.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <nlohmann/json.hpp>
+#include <limits>
 
+#include "film/film_output.h"
+#include "unit/view/decoded_frame.h"
 #include "view/frame_store.h"
 
 namespace nephroid {
 namespace {
+
+using testing_support::decode;
+using testing_support::DecodedFrame;
 
 /// A film with one estimate a pixel: value(x, y) in R, G and B.
 template <class Value>
@@ -29,30 +32,6 @@ Film film_with(int width, int height, const Value& value) {
   return film;
 }
 
-/// A decoded frame: header, and the halves of the payload.
-struct Decoded {
-  nlohmann::json header;
-  std::vector<float> values;
-};
-
-Decoded decode(const std::string& bytes) {
-  Decoded decoded;
-  EXPECT_EQ(bytes.substr(0, 4), "NPHV");
-  uint32_t numbers[2];
-  std::memcpy(numbers, bytes.data() + 4, sizeof(numbers));
-  EXPECT_EQ(numbers[0], 1u);
-  EXPECT_EQ((12 + numbers[1]) % 8, 0u);
-  decoded.header = nlohmann::json::parse(bytes.substr(12, numbers[1]));
-  for (size_t i = 12 + numbers[1]; i + 1 < bytes.size(); i += 2) {
-    uint16_t bits;
-    std::memcpy(&bits, bytes.data() + i, 2);
-    Imath::half value;
-    value.setBits(bits);
-    decoded.values.push_back(value);
-  }
-  return decoded;
-}
-
 const Rgb kGrey{0.5f, 0.5f, 0.5f};
 
 TEST(Frame, TilesHoldTheirRowsOneAfterAnother) {
@@ -62,7 +41,7 @@ TEST(Frame, TilesHoldTheirRowsOneAfterAnother) {
   });
   FrameStore store;
   EXPECT_EQ(store.update(film, {}, 0), 1u);
-  const Decoded frame = decode(*store.frame({"picture"}, 0, 0));
+  const DecodedFrame frame = decode(*store.frame({"picture"}, 0, 0));
   EXPECT_EQ(frame.header["tiles"], (std::vector<int>{0, 1}));
   EXPECT_EQ(frame.header["window"], (std::vector<int>{0, 0, 70, 3}));
   ASSERT_EQ(frame.values.size(), 70u * 3 * 3);
@@ -105,7 +84,7 @@ TEST(Frame, BrightAndDimLayersKeepTheirDigits) {
     const Film film = film_with(4, 4, [value](int, int) { return Rgb{value, value, value}; });
     FrameStore store;
     store.update(film, {}, 0);
-    const Decoded frame = decode(*store.frame({"picture"}, 0, 0));
+    const DecodedFrame frame = decode(*store.frame({"picture"}, 0, 0));
     const float scale = frame.header["layers"][0]["scale"];
     EXPECT_NEAR(frame.values[0] * scale / value, 1, 1.0 / 2048) << level;
     EXPECT_EQ(std::exp2(std::round(std::log2(scale))), scale) << "no power of two";
@@ -119,7 +98,7 @@ TEST(Frame, ABrightLampLeavesTheDarkPartsTheirDigits) {
     });
     FrameStore store;
     store.update(film, {}, 0);
-    const Decoded frame = decode(*store.frame({"picture"}, 0, 0));
+    const DecodedFrame frame = decode(*store.frame({"picture"}, 0, 0));
     const float scale = frame.header["layers"][0]["scale"];
     EXPECT_NEAR(frame.values[3] * scale / 0.0123f, 1, 1.0 / 1024) << lamp;
     EXPECT_GT(frame.values[0] * scale, 6e4f) << lamp;
@@ -138,7 +117,7 @@ TEST(Frame, ColoursAreThoseOfScreens) {
   film.add_estimates(0, 1);
   FrameStore store;
   store.update(film, {}, 0);
-  const Decoded frame = decode(*store.frame({"picture"}, 0, 0));
+  const DecodedFrame frame = decode(*store.frame({"picture"}, 0, 0));
   // The green of Rec. 2020 lies outside of sRGB.
   EXPECT_LT(frame.values[0], -0.5f);
   EXPECT_GT(frame.values[1], 1.1f);
@@ -165,7 +144,7 @@ TEST(Frame, AFilmWithoutALayerLeavesItOut) {
   FrameStore store;
   store.update(film, {}, 0);
   store.add(&film, 0, {"caustic"});
-  const Decoded frame = decode(*store.frame({"picture", "caustic"}, 0, 0));
+  const DecodedFrame frame = decode(*store.frame({"picture", "caustic"}, 0, 0));
   EXPECT_EQ(frame.header["layers"].size(), 1u);
 }
 
@@ -179,11 +158,36 @@ TEST(Frame, NotFiniteValuesOfAPictureStayWhatTheyAre) {
   FrameInfo info;
   info.window = picture.window;
   const FrameLayerPtr layers[] = {frame_layer(picture, "Z", "Z", {"Z"})};
-  const Decoded frame = decode(encode_frame(info, layers, 0));
+  const DecodedFrame frame = decode(encode_frame(info, layers, 0));
   EXPECT_TRUE(std::isnan(frame.values[0]));
   EXPECT_EQ(frame.values[1], kInfinity);
   EXPECT_EQ(frame.values[2], -kInfinity);
   EXPECT_EQ(frame.values[3] * layers[0]->scale, 2);
+}
+
+/// The film leaves such estimates out, and depths may be infinite.
+TEST(Frame, EstimatesThatAreNotFiniteDoNoHarm) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinite = std::numeric_limits<float>::infinity();
+  const float strange[] = {kNan, kInfinite, -kInfinite, 3e38f, -3e38f, 1e-45f};
+  Film film = film_with(6, 6, [&](int x, int y) {
+    return Rgb{strange[x], strange[y], strange[(x + y) % 6]};
+  });
+  for (int x = 0; x < 6; ++x)
+    film.add_features(x, x, {strange[x], 0, 1}, {strange[x], 0, 1}, strange[x]);
+  film.add_feature_estimates(1);
+  FrameStore store;
+  store.update(film, {}, 0);
+  std::vector<std::string> names;
+  for (const FilmLayer& layer : film_layers(film)) names.push_back(layer.name);
+  store.add(&film, 0, names);
+  for (const std::string& name : names) {
+    const DecodedFrame frame = decode(*store.frame({name}, 0, 0));
+    ASSERT_EQ(frame.header["layers"].size(), 1u) << name;
+    EXPECT_TRUE(std::isfinite(frame.header["layers"][0]["scale"].get<float>())) << name;
+  }
+  EXPECT_GT(film.bad_estimates(0).count, 0u);
+  EXPECT_EQ(film_srgb8(film, 1).size(), 6u * 6 * 3);
 }
 
 }  // namespace

@@ -6,54 +6,21 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <thread>
 
 #include "core/errors.h"
-#include "view/temporary_directory.h"
+#include "unit/view/decoded_frame.h"
+#include "unit/view/live_scene.h"
 
 namespace nephroid {
 namespace {
 
-constexpr const char* kScene = R"(
-LookAt 0 0 -4  0 0 0  0 1 0
-Camera "perspective" "float fov" 40
-Film "rgb" "integer xresolution" 32 "integer yresolution" 24
-WorldBegin
-LightSource "point" "string name" "key" "point3 from" [ 0 3 -3 ] "rgb I" [ 9 9 9 ]
-LightSource "point" "string name" "fill" "point3 from" [ 3 0 -3 ] "rgb I" [ 1 2 3 ]
-Shape "sphere"
-)";
+using testing_support::comes;
+using testing_support::has_picture;
+using testing_support::kLiveScene;
 
-class Live : public testing::Test {
- protected:
-  Live() { write(kScene); }
-
-  void write(const std::string& text) const { std::ofstream(path_) << text; }
-
-  RenderRequest request() const {
-    RenderRequest request;
-    request.scene = path_;
-    request.routes.integrator = "path";
-    return request;
-  }
-
-  /// Waits for at most ten seconds until the state is as wanted.
-  template <class Wanted>
-  static bool comes(const LiveRender& live, const Wanted& wanted) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    while (std::chrono::steady_clock::now() < end) {
-      if (wanted(live.state())) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    return false;
-  }
-  static bool has_picture(const LiveRender& live) {
-    return comes(live, [](const LiveState& state) { return state.version > 0; });
-  }
-
-  TemporaryDirectory directory_;
-  std::string path_ = directory_.file("scene.pbrt");
-};
+using Live = testing_support::LiveTest;
 
 TEST_F(Live, ShowsAPictureAndGoesOn) {
   LiveRender live(request());
@@ -173,35 +140,37 @@ TEST_F(Live, AWrongSceneIsToldAndReadAgain) {
   ASSERT_TRUE(comes(live, [](const LiveState& s) { return s.status == LiveStatus::kFailed; }));
   EXPECT_NE(live.state().message.find("scene.pbrt:2:"), std::string::npos);
   EXPECT_THROW(live.probe(0, 0), UsageError);
-  write(kScene);
+  write(kLiveScene);
   live.reload();
   EXPECT_TRUE(has_picture(live));
   EXPECT_EQ(live.state().status, LiveStatus::kRendering);
 }
 
 TEST_F(Live, KnowsTheFilesOfItsScene) {
-  std::ofstream(directory_.file("ball.pbrt")) << "Shape \"sphere\"\n";
-  write(std::string(kScene) + "Include \"ball.pbrt\"\n");
+  write("ball.pbrt", "Shape \"sphere\"\n");
+  write(std::string(kLiveScene) + "Include \"ball.pbrt\"\n");
   LiveRender live(request());
   ASSERT_TRUE(has_picture(live));
-  EXPECT_EQ(live.files(), (std::vector<std::string>{path_, directory_.file("ball.pbrt")}));
+  std::vector<std::string> files;
+  for (const auto& entry : live.files()) files.push_back(entry.first);
+  EXPECT_EQ(files, (std::vector<std::string>{file("ball.pbrt"), path_}));
 }
 
 TEST_F(Live, WritesAPicture) {
   LiveRender live(request());
   ASSERT_TRUE(comes(live, [](const LiveState& s) { return s.progress.passes_done > 0; }));
-  const std::string exr = directory_.file("out.exr");
+  const std::string exr = file("out.exr");
   live.write(exr);
   const Picture picture = read_picture(exr);
   EXPECT_EQ(picture.width(), 32);
   EXPECT_GE(picture.find_channel("diffuse.R"), 0);
-  EXPECT_TRUE(std::filesystem::exists(directory_.file("out.png")));
+  EXPECT_TRUE(std::filesystem::exists(file("out.png")));
 }
 
 TEST_F(Live, GoesOnFromASavedRender) {
   const auto is_done = [](const LiveState& state) { return state.status == LiveStatus::kDone; };
   RenderRequest short_one = request();
-  short_one.options.output = directory_.file("out.exr");
+  short_one.options.output = file("out.exr");
   short_one.options.last_pass = 3;
   {
     LiveRender live(short_one);
@@ -224,13 +193,16 @@ TEST_F(Live, AMovedCameraIsAnEdit) {
   CameraChange change;
   change.eye = Vec3d(1, 0, -4);
   const uint64_t generation = live.move_camera(change);
-  bool is_seen = false, is_edited = false;
-  for (int i = 0; i < 1000 && !is_seen; ++i)
+  bool is_edited = false;
+  EXPECT_TRUE(comes(live, [&](const LiveState&) {
+    uint64_t seen = 0;
     live.at_rest([&](const RenderAtRest& rest) {
-      is_seen = rest.generation == generation;
+      seen = rest.generation;
       is_edited = rest.is_edited;
     });
-  EXPECT_TRUE(is_seen && is_edited);
+    return seen == generation;
+  }));
+  EXPECT_TRUE(is_edited);
 }
 
 TEST_F(Live, ErrorsOfQuestionsReachWhoAsks) {
@@ -238,6 +210,53 @@ TEST_F(Live, ErrorsOfQuestionsReachWhoAsks) {
   ASSERT_TRUE(has_picture(live));
   EXPECT_THROW(live.at_rest([](const RenderAtRest&) { throw IoError("no"); }), IoError);
   EXPECT_THROW(live.probe(32, 0), UsageError);
+}
+
+/// Else a page, or a test, that waits for the end of its edit sees that of the render before.
+TEST_F(Live, AnEditBeginsWithItsOwnStatus) {
+  LiveRender live(request(2));
+  ASSERT_TRUE(testing_support::has_status(live, LiveStatus::kDone));
+  std::promise<void> begun, may_end;
+  std::thread holds_the_render([&] {
+    live.at_rest([&](const RenderAtRest&) {
+      begun.set_value();
+      may_end.get_future().wait();
+    });
+  });
+  begun.get_future().wait();
+  RenderChange restart;
+  restart.action = RenderAction::kRestart;
+  live.change(restart);
+  EXPECT_EQ(live.state().status, LiveStatus::kRendering);
+  EXPECT_EQ(live.state().message, "");
+  live.reload();
+  EXPECT_EQ(live.state().status, LiveStatus::kLoading);
+  may_end.set_value();
+  holds_the_render.join();
+  EXPECT_TRUE(testing_support::has_status(live, LiveStatus::kDone));
+}
+
+TEST_F(Live, PreviewsDoNotChangeTheSettings) {
+  RenderRequest of_the_scene = request();
+  of_the_scene.routes.integrator.clear();
+  LiveRender live(of_the_scene);
+  ASSERT_TRUE(has_picture(live));
+  const std::string integrator = live.state().settings.integrator;
+  EXPECT_NE(integrator, "path");
+  CameraChange change;
+  change.eye = Vec3d(1, 0, -4);
+  change.is_moving = true;
+  live.move_camera(change);
+  ASSERT_TRUE(comes(live, [](const LiveState& s) { return s.is_preview; }));
+  EXPECT_EQ(live.state().settings.integrator, integrator);
+}
+
+TEST_F(Live, LayersThatThereAreNotAreLeftOut) {
+  LiveRender live(request(2));
+  ASSERT_TRUE(testing_support::has_status(live, LiveStatus::kDone));
+  const auto frame = live.frame({"picture", "nonsense"}, 0, 0);
+  ASSERT_TRUE(frame.has_value());
+  EXPECT_EQ(testing_support::decode(*frame).header["layers"].size(), 1u);
 }
 
 }  // namespace
