@@ -18,7 +18,7 @@ sys.path[:0] = [HERE, os.path.join(REPOSITORY, "tools", "blender")]
 
 import nephroid_blender
 from nephroid_blender.process import RenderProcess
-from nephroid_blender.program import find_program, route_names
+from nephroid_blender.program import find_program, no_program, route_names
 from exported import *  # its tests run with those of this file
 from rendering import (block_means, cycles, nephroid, open_scene, render_to, save_side_by_side)
 
@@ -161,8 +161,11 @@ class Failures(unittest.TestCase):
         report = Report()
         write_contents(FOLDER, bpy.context.evaluated_depsgraph_get(), report)
         self.assertEqual(report.warnings, [
-            "material 'white': node 'Noise Texture' is not supported, the default of its output "
-            "is used"])
+            "material 'white': node 'Noise Texture' is not supported, 0.5 is used instead"])
+
+    def test_a_wrong_path_of_the_program_is_no_other_program(self):
+        self.assertEqual(find_program("/nowhere/nephroid"), "")
+        self.assertIn("'/nowhere/nephroid'", no_program("/nowhere/nephroid"))
 
 
 def main():

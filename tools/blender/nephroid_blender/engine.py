@@ -8,13 +8,11 @@ import bpy
 from .export.report import Report
 from .export.scene import export_frame
 from .passes import extra_passes, fill
-from .preferences import program_path
+from .preferences import program_path, why_no_program
 from .process import RenderProcess
 from .settings import thread_arguments
 from .viewport import Viewport
 
-NO_PROGRAM = ("the program nephroid is not found: set its path in the preferences of the add-on "
-              "(Edit > Preferences > Add-ons > Nephroid)")
 SECONDS_BETWEEN_LOOKS = 0.05
 
 
@@ -42,7 +40,7 @@ class NephroidRenderEngine(bpy.types.RenderEngine):
     def render(self, depsgraph):
         program = program_path()
         if not program:
-            self._fail(NO_PROGRAM)
+            self._fail(why_no_program())
             return
         with tempfile.TemporaryDirectory(prefix="nephroid-") as folder:
             self._render_in(folder, program, depsgraph)
@@ -71,6 +69,13 @@ class NephroidRenderEngine(bpy.types.RenderEngine):
             self._show(process, layer, passes)
         finally:
             process.stop()
+        if process.end is not None:
+            self._report_lines(process.end["report"].replace(folder + "/", ""))
+
+    def _report_lines(self, text):
+        """Each line by itself: Blender cuts long messages."""
+        for line in text.strip().splitlines():
+            self.report({"INFO"}, line)
 
     def _show(self, process, view_layer, passes):
         """Shows the picture until it is done or the user cancels."""
@@ -92,8 +97,6 @@ class NephroidRenderEngine(bpy.types.RenderEngine):
         failure = process.failure()
         if failure and not self._has_failed:
             self._fail(failure)
-        elif process.end is not None:
-            self.report({"INFO"}, process.end["report"].strip())
 
     def _show_picture(self, frame, view_layer, passes):
         x0, y0, x1, y1 = frame.header["window"]

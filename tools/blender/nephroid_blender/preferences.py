@@ -2,7 +2,7 @@
 import bpy
 from bpy.props import StringProperty
 
-from .program import find_program
+from .program import find_program, no_program
 
 
 class NephroidPreferences(bpy.types.AddonPreferences):
@@ -14,15 +14,24 @@ class NephroidPreferences(bpy.types.AddonPreferences):
 
     def draw(self, context):
         self.layout.prop(self, "program")
-        found = find_program(bpy.path.abspath(self.program))
-        text = f"Found: {found}" if found else "No program found: set the path of nephroid"
+        found = program_path()
+        text = f"Found: {found}" if found else why_no_program()
         self.layout.label(text=text, icon="CHECKMARK" if found else "ERROR")
+
+
+def _wanted():
+    addon = bpy.context.preferences.addons.get(__package__)
+    return bpy.path.abspath(addon.preferences.program) if addon else ""
 
 
 def program_path():
     """The program to run, "" if none is found."""
-    addon = bpy.context.preferences.addons.get(__package__)
-    return find_program(bpy.path.abspath(addon.preferences.program) if addon else "")
+    return find_program(_wanted())
+
+
+def why_no_program():
+    """What to tell the user where program_path() is empty."""
+    return no_program(_wanted())
 
 
 def register():

@@ -5,15 +5,24 @@ import shutil
 import subprocess
 
 REPOSITORY = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "..")
+PREFERENCES = "the add-on's preferences (Edit > Preferences > Add-ons > Nephroid)"
 
 
 def find_program(wanted=""):
-    """The path of the program: the wanted one, else that of PATH, else that of the repository."""
+    """The path of the program, "" if there is none: the wanted one and no other; if none is
+    wanted that of PATH, else that of the repository."""
     built = os.path.join(REPOSITORY, "build", "release", "bin", "nephroid")
-    for path in (wanted, shutil.which("nephroid"), os.path.normpath(built)):
+    for path in [wanted] if wanted else [shutil.which("nephroid"), os.path.normpath(built)]:
         if path and os.path.isfile(path) and os.access(path, os.X_OK):
             return path
     return ""
+
+
+def no_program(wanted=""):
+    """Why find_program() has found none."""
+    if wanted:
+        return f"'{wanted}' is not the program nephroid: mend its path in {PREFERENCES}"
+    return f"the program nephroid is not found: set its path in {PREFERENCES}"
 
 
 @functools.lru_cache(maxsize=64)

@@ -10,7 +10,7 @@ from gpu_extras.presets import draw_texture_2d
 from .export.camera import View
 from .export.report import Report
 from .export.scene import write_contents, write_head
-from .preferences import program_path
+from .preferences import program_path, why_no_program
 from .process import RenderProcess
 from .settings import thread_arguments
 
@@ -71,8 +71,7 @@ class Viewport:
         self._stop()
         program, engine = program_path(), self._engine()
         if not program:
-            engine.update_stats("Nephroid", "the program is not found: set its path in the "
-                                            "add-on's preferences")
+            engine.update_stats("Nephroid", why_no_program())
             return
         path = write_head(self._folder.name, view, *size)
         settings = scene.nephroid

@@ -8,6 +8,9 @@ from . import images, values
 from .values import Constant, combine, number
 
 
+INSTEAD = 0.5  # middle grey, of outputs that cannot be read
+
+
 class ValueReader:
     """Reads sockets as values. What cannot be read becomes a constant, with a warning."""
 
@@ -56,15 +59,8 @@ class ValueReader:
         read = NODES.get(output.node.type)
         if read is not None:
             return read(self, output)
-        self.warn(f"node '{output.node.name}' is not supported, "
-                  "the default of its output is used")
-        return self.default_of(output)
-
-    @staticmethod
-    def default_of(output):
-        socket = output.node.node.outputs.get(output.name)
-        value = getattr(socket, "default_value", 0.5)
-        return values.color(value) if hasattr(value, "__len__") else number(value or 0.5)
+        self.warn(f"node '{output.node.name}' is not supported, {INSTEAD:g} is used instead")
+        return number(INSTEAD)
 
     def environment(self, output):
         self.warn(f"'{output.node.name}' is for worlds, a constant is used")
