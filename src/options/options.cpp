@@ -164,7 +164,7 @@ const OptionDescription kOptions[] = {
      add_aov<&CommandLine::render>, true},
     {"render", "--layers", "", "routes|lights|both", "", "routes", "Output",
      "Layers for nephroid mix: lights adds one for each lamp, both adds one for each route and "
-     "lamp, ROUTE_LAMP. Of more than 12 lamps, the 11 strongest have a layer each, and the rest "
+     "lamp, ROUTE_LAMP. With more than 12 lamps, the 11 strongest have a layer each, and the rest "
      "share other-lights.",
      false, set_layers, true},
     {"render", "--resume", "", "", "", "", "Output",

@@ -72,6 +72,9 @@ class Render {
 
   /// Writes what is rendered so far, see RenderSession. Throws IoError.
   void save(const std::string& path, bool with_state) { session_->save(path, with_state); }
+  void save_last(const std::string& path, bool with_state) {
+    session_->save_last(path, with_state);
+  }
   /// True if it goes on from a saved render.
   bool has_resumed() const { return has_resumed_; }
   /// Explains a pixel. Called after run() or from a callback. Throws UsageError.

@@ -109,6 +109,9 @@ class RenderSession {
   /// Writes what is rendered so far, with its PNG. Called after run() or from a callback. Throws
   /// IoError.
   void save(const std::string& path, bool with_state);
+  /// The same for a picture that would be lost: if it cannot be written there, it is written into
+  /// the rescue directory, and the error says so.
+  void save_last(const std::string& path, bool with_state);
   /// Choices of the program, errors and faults of the picture so far, one a line.
   std::string report();
 
@@ -152,6 +155,7 @@ class RenderSession {
   void keep_previous();
   void write_png();
   void write_last_picture(bool with_state);
+  void write_or_rescue(const std::string& path, bool with_state);
   /// Writes, warns of errors, and returns the time of the next write.
   double write_now(double interval, const std::function<void()>& write);
   uint32_t passes_done_of_wanted() const;

@@ -23,10 +23,10 @@ namespace {
 
 }  // namespace
 
-void RenderSession::write_last_picture(bool with_state) {
+void RenderSession::write_or_rescue(const std::string& path, bool with_state) {
   namespace fs = std::filesystem;
   try {
-    write_exr_file(options_.output, with_state);
+    write_exr_file(path, with_state);
   } catch (const IoError& error) {
     // A new directory, in which nobody else can have put a link.
     const std::string random_letters(6, 'X');  // replaced by mkdtemp
@@ -38,7 +38,7 @@ void RenderSession::write_last_picture(bool with_state) {
           error.what(), options_.rescue_directory));
     };
     if (options_.rescue_directory.empty() || ::mkdtemp(directory.data()) == nullptr) throw lost();
-    const fs::path rescue = fs::path(directory) / fs::path(options_.output).filename();
+    const fs::path rescue = fs::path(directory) / fs::path(path).filename();
     try {
       write_exr_file(rescue.string(), with_state);
     } catch (const IoError&) {
@@ -48,11 +48,20 @@ void RenderSession::write_last_picture(bool with_state) {
     }
     throw IoError(fmt::format("{}; the picture was written to {}", error.what(), rescue.string()));
   }
+}
+
+void RenderSession::write_last_picture(bool with_state) {
+  write_or_rescue(options_.output, with_state);
   write_png();
 }
 
 void RenderSession::save(const std::string& path, bool with_state) {
   write_exr_file(path, with_state);
+  write_preview(path, film_, options_.png_exposure);
+}
+
+void RenderSession::save_last(const std::string& path, bool with_state) {
+  write_or_rescue(path, with_state);
   write_preview(path, film_, options_.png_exposure);
 }
 

@@ -21,11 +21,15 @@ HeatColor flip_color(double flip) {
   return heat_color(kHeatMin * std::pow(kHeatMax / kHeatMin, std::clamp(flip, 0.0, 1.0)));
 }
 
-void check_same_size(const Picture& reference, const Picture& test) {
-  if (reference.width() != test.width() || reference.height() != test.height())
-    throw UsageError(
-        fmt::format("the picture to compare with has {} x {} pixels, expected {} x {} as here",
-                    reference.width(), reference.height(), test.width(), test.height()));
+void check_same_part(const Picture& reference, const Picture& test) {
+  const auto name = [](const Picture& picture) {
+    const PixelBounds& window = picture.window;
+    return fmt::format("columns {} to {} and rows {} to {} of {} x {} pixels", window.x0, window.x1,
+                       window.y0, window.y1, picture.full_width, picture.full_height);
+  };
+  const std::string there = name(reference), here = name(test);
+  if (there != here)
+    throw UsageError(fmt::format("the picture to compare with has {}, expected {} as here", there, here));
 }
 
 }  // namespace
@@ -106,13 +110,13 @@ std::shared_ptr<const Picture> Comparisons::find(const std::string& id) const {
 }
 
 Distance distance(const Picture& reference, const Picture& test) {
-  check_same_size(reference, test);
+  check_same_part(reference, test);
   return {compare_pictures(reference, test, {}).relmse, flip(reference, test, kExposure)};
 }
 
 std::vector<uint8_t> heat_png(const Picture& reference, const Picture& test,
                               const std::string& kind) {
-  check_same_size(reference, test);
+  check_same_part(reference, test);
   const int width = reference.width(), height = reference.height();
   if (kind == "relmse") return encode_png(width, height, heat_map(reference, test));
   if (kind != "flip")

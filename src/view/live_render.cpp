@@ -101,7 +101,15 @@ uint64_t LiveRender::move_camera(const CameraChange& change) {
   edits_.camera = std::move(pose);
   edits_.is_edited = true;
   edits_.is_moving = change.is_moving;
+  edits_.moved_at = steady_seconds();
   return note_edit();
+}
+
+void LiveRender::settle_camera(double seconds) {
+  const std::lock_guard lock(mutex_);
+  if (!edits_.is_moving || steady_seconds() - edits_.moved_at < seconds) return;
+  edits_.is_moving = false;
+  note_edit();
 }
 
 uint64_t LiveRender::change(const RenderChange& change) {
@@ -112,7 +120,7 @@ uint64_t LiveRender::change(const RenderChange& change) {
   const std::lock_guard lock(mutex_);
   if (change.begins_anew()) {
     apply(change, &edits_.request);
-    edits_.is_edited = edits_.is_edited || change.action != RenderAction::kRestart;
+    edits_.is_edited = edits_.is_edited || change.has_settings();
     edits_.is_moving = false;
     return note_edit();
   }

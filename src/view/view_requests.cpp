@@ -157,9 +157,8 @@ CameraPose CameraChange::applied_to(CameraPose pose) const {
   return pose;
 }
 
-bool RenderChange::begins_anew() const {
-  return action == RenderAction::kRestart || integrator || routes || layers || seed || time ||
-         noise || resolution || crop;
+bool RenderChange::has_settings() const {
+  return integrator || routes || layers || seed || time || noise || resolution || crop;
 }
 
 CameraChange parse_camera_change(std::string_view body) {

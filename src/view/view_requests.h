@@ -39,7 +39,8 @@ struct RenderChange {
   std::optional<std::pair<int, int>> resolution;
   std::optional<std::array<double, 4>> crop;  ///< x0, x1, y0, y1 in [0,1]
 
-  bool begins_anew() const;
+  bool has_settings() const;
+  bool begins_anew() const { return action == RenderAction::kRestart || has_settings(); }
 };
 
 /// A pixel of the full picture.

@@ -21,7 +21,7 @@ def find_program(wanted=""):
 def no_program(wanted=""):
     """Why find_program() has found none."""
     if wanted:
-        return f"'{wanted}' is not the program nephroid: mend its path in {PREFERENCES}"
+        return f"'{wanted}' is not found or not executable: set the path in {PREFERENCES}"
     return f"the program nephroid is not found: set its path in {PREFERENCES}"
 
 

@@ -8,7 +8,7 @@ from . import images, values
 from .values import Constant, combine, number
 
 
-INSTEAD = 0.5  # middle grey, of outputs that cannot be read
+FALLBACK = 0.5  # middle grey, of outputs that cannot be read
 
 
 class ValueReader:
@@ -59,8 +59,8 @@ class ValueReader:
         read = NODES.get(output.node.type)
         if read is not None:
             return read(self, output)
-        self.warn(f"node '{output.node.name}' is not supported, {INSTEAD:g} is used instead")
-        return number(INSTEAD)
+        self.warn(f"node '{output.node.name}' is not supported, {FALLBACK:g} is used instead")
+        return number(FALLBACK)
 
     def environment(self, output):
         self.warn(f"'{output.node.name}' is for worlds, a constant is used")
