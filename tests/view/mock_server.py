@@ -215,7 +215,9 @@ class Handler(BaseHTTPRequestHandler):
             mean = sum(errors) / max(1, len(errors))
             path = f"/api/heat?with={query['with']}&kind="
             trimmed = sorted(errors)[:-max(1, len(errors) // 1000)]
-            self.json({"relmse": mean, "relmse_trim": sum(trimmed) / max(1, len(trimmed)), "flip": min(1, math.sqrt(mean)),
+            self.json({"relmse": mean,
+                       "relmse_trim": sum(trimmed) / max(1, len(trimmed)),
+                       "flip": min(1, math.sqrt(mean)),
                        "heat": {"relmse": path + "relmse", "flip": path + "flip"}})
         elif name == "heat":
             self.get_heat(query)

@@ -89,7 +89,8 @@ test('what is compared is the mix, and its figures follow it', async () => {
   await setInput('#compare-with', await newest(), 'change');
   const relmse = () => page.evaluate(() => {
     const text = document.querySelector('#compare-figures').textContent;
-    return { value: parseFloat(text.match(/relMSE([-+.e\d]+?)relMSE/)?.[1]), mix: /mix/.test(text) };
+    const [, value] = text.match(/relMSE([-+.e\d]+?)relMSE/) ?? [];
+    return { value: parseFloat(value), mix: /mix/.test(text) };
   });
   await page.waitFor(() => /Measured/.test(document.querySelector('#compare-figures').textContent));
   assert.deepEqual(await relmse(), { value: 0, mix: false });

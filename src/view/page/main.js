@@ -86,8 +86,8 @@ function start() {
 
   setUpSaveLinks(server, notify);
 
-  const listeners = [status, new FailureMessage(), camera, render, compare, displayPanel, layersPanel, cameraPanel,
-    tools, feed];
+  const listeners = [status, new FailureMessage(), camera, render, compare, displayPanel,
+    layersPanel, cameraPanel, tools, feed];
   server.addEventListener('state', (event) => {
     if (state && state.generation !== event.detail.generation) inspector.clear();
     const layersBefore = state?.settings.layers;
