@@ -29,7 +29,8 @@ void check_same_part(const Picture& reference, const Picture& test) {
   };
   const std::string there = name(reference), here = name(test);
   if (there != here)
-    throw UsageError(fmt::format("the picture to compare with has {}, expected {} as here", there, here));
+    throw UsageError(
+        fmt::format("the picture to compare with has {}, expected {} as here", there, here));
 }
 
 }  // namespace
@@ -111,7 +112,8 @@ std::shared_ptr<const Picture> Comparisons::find(const std::string& id) const {
 
 Distance distance(const Picture& reference, const Picture& test) {
   check_same_part(reference, test);
-  return {compare_pictures(reference, test, {}).relmse, flip(reference, test, kExposure)};
+  const Comparison errors = compare_pictures(reference, test, {});
+  return {errors.relmse, errors.relmse_trim, flip(reference, test, kExposure)};
 }
 
 std::vector<uint8_t> heat_png(const Picture& reference, const Picture& test,

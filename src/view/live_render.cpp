@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 
@@ -14,20 +13,15 @@
 #include "scene/scene_view.h"
 #include "view/describe_render.h"
 #include "view/live_requests.h"
+#include "view/steady_seconds.h"
 #include "view/thread_priority.h"
 
 namespace nephroid {
 namespace {
 
-constexpr double kLongestWaitForRest = 20;  ///< seconds
 /// While the camera moves, the resolution is such that the first picture takes about so long.
 constexpr double kPreviewSeconds = 0.035;
 constexpr double kFirstPreviewEdge = 256, kMinPreviewEdge = 96;  ///< pixels of the longer side
-
-double steady_seconds() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double>(now).count();
-}
 
 /// True if the scene's camera can have this pose. Types differ in their parameters.
 bool can_be_camera(SceneDescription trial, const CameraPose& pose) {
@@ -37,6 +31,11 @@ bool can_be_camera(SceneDescription trial, const CameraPose& pose) {
   } catch (const UsageError&) {
     return false;
   }
+}
+
+ExitStatus status_of(const std::exception& error) {
+  const auto* own = dynamic_cast<const Error*>(&error);
+  return own != nullptr ? own->status() : ExitStatus::kRender;
 }
 
 }  // namespace
@@ -105,11 +104,12 @@ uint64_t LiveRender::move_camera(const CameraChange& change) {
   return note_edit();
 }
 
-void LiveRender::settle_camera(double seconds) {
+bool LiveRender::settle_camera(double seconds) {
   const std::lock_guard lock(mutex_);
-  if (!edits_.is_moving || steady_seconds() - edits_.moved_at < seconds) return;
+  if (!edits_.is_moving || steady_seconds() - edits_.moved_at < seconds) return false;
   edits_.is_moving = false;
   note_edit();
+  return true;
 }
 
 uint64_t LiveRender::change(const RenderChange& change) {
@@ -138,70 +138,6 @@ void LiveRender::reload() {
   edits_.is_moving = false;
   state_.status = LiveStatus::kLoading;
   note_edit();
-}
-
-void LiveRender::at_rest(std::function<void(const RenderAtRest&)> run) {
-  if (state().status == LiveStatus::kLoading) throw UsageError("the scene is being read");
-  const auto ticket = tasks_.add(std::move(run));
-  {
-    const std::lock_guard lock(mutex_);
-    signals_.write = true;
-  }
-  changed_.notify_all();
-  ticket->wait(kLongestWaitForRest);
-}
-
-std::optional<std::string> LiveRender::frame(const std::vector<std::string>& names,
-                                             uint64_t generation, uint64_t since) {
-  if (frames_.version() == 0) return std::nullopt;
-  // Others would be asked for at rest, and kept as wishes.
-  const std::vector<std::string> layers = known_layers(state().layers, names);
-  if (!frames_.want(layers, steady_seconds()) && state().status != LiveStatus::kFailed)
-    at_rest([&](const RenderAtRest& rest) {
-      const bool has_pixels = rest.render.film().can_be_shown();
-      frames_.add(has_pixels ? &rest.render.film() : nullptr, rest.generation, layers);
-    });
-  return frames_.frame(layers, generation, since);
-}
-
-Vec2i LiveRender::pixel_of_render(const RenderAtRest& rest, int x, int y) const {
-  const LiveSettings full = state().settings;
-  const FilmSettings& film = rest.render.film().settings();
-  return {static_cast<int>(int64_t{x} * film.width / std::max(1, full.width)),
-          static_cast<int>(int64_t{y} * film.height / std::max(1, full.height))};
-}
-
-ProbedPixel LiveRender::probe(int x, int y) {
-  ProbedPixel probed;
-  at_rest([&](const RenderAtRest& rest) {
-    const Film& film = rest.render.film();
-    const Vec2i pixel = pixel_of_render(rest, x, y);
-    check_pixel(pixel.x, pixel.y, film.bounds());
-    probed.value = film.value(pixel.x, pixel.y);
-    probed.standard_error = film.standard_error(pixel.x, pixel.y);
-    probed.samples = film.samples(pixel.x, pixel.y);
-  });
-  return probed;
-}
-
-Picture LiveRender::colors(const LayerGains& gains) {
-  Picture picture;
-  with_picture(
-      [&](const RenderAtRest& rest) { picture = mixed_colors(rest.render.film(), gains); });
-  return picture;
-}
-
-void LiveRender::write(const std::string& exr_path) {
-  with_picture([&](const RenderAtRest& rest) { rest.render.save(exr_path, false); });
-}
-
-void LiveRender::with_picture(std::function<void(const RenderAtRest&)> task) {
-  at_rest([&task](const RenderAtRest& rest) {
-    if (rest.is_preview) throw UsageError("the camera is moving, wait for the full picture");
-    if (!rest.render.film().can_be_shown())
-      throw UsageError("there is no picture yet, try again in a moment");
-    task(rest);
-  });
 }
 
 void LiveRender::publish(const std::function<void(LiveState&)>& change) {
@@ -244,7 +180,12 @@ void LiveRender::work() {
       if (edits.reloads || !loaded_) load(edits);
       render(edits);
     } catch (const std::exception& error) {
-      publish_status(LiveStatus::kFailed, error.what());
+      publish([&](LiveState& state) {
+        if (must_stop()) return;
+        state.status = LiveStatus::kFailed;
+        state.message = error.what();
+        state.failure = status_of(error);
+      });
       refuse_tasks_until_edited(error.what());
     }
     const std::lock_guard lock(mutex_);

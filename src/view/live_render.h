@@ -45,8 +45,8 @@ class LiveRender final : public ViewSource {
   uint64_t move_camera(const CameraChange& change);
   uint64_t change(const RenderChange& change);
   /// Renders the full picture if the camera is said to be moving and no move has come for so long:
-  /// a page may have been closed meanwhile.
-  void settle_camera(double seconds);
+  /// a page may have been closed meanwhile. Returns whether it does.
+  bool settle_camera(double seconds);
   /// Reads the scene's files again.
   void reload();
 
@@ -72,7 +72,7 @@ class LiveRender final : public ViewSource {
     RenderRequest request;
     std::optional<CameraPose> camera;  ///< empty: the scene's own
     bool is_moving = false;
-    double moved_at = 0;  ///< of the last move, by steady_seconds()
+    double moved_at = 0;     ///< of the last move, by steady_seconds()
     bool is_edited = false;  ///< since the view began
     bool reloads = true;
     uint64_t generation = 1;

@@ -10,7 +10,9 @@
 
 namespace nephroid {
 
-std::string ViewCheckpoint::write(LiveRender& live) { return write(live, &Render::save); }
+std::string ViewCheckpoint::write(LiveRender& live) {
+  return write(live, &Render::save);
+}
 
 std::string ViewCheckpoint::write_last(LiveRender& live) {
   return write(live, &Render::save_last);

@@ -195,6 +195,8 @@ export class Page {
   }
 
   async screenshot(file) {
+    // A page that another one has covered is never painted.
+    await this.send('Page.bringToFront');
     const { data } = await this.send('Page.captureScreenshot', { format: 'png' });
     writeFileSync(file, Buffer.from(data, 'base64'));
   }

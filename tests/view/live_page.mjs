@@ -27,8 +27,11 @@ export const state = () => page.evaluate(() => window.nephroid.state);
 export const sleep = (milliseconds) =>
   new Promise((resolve) => { setTimeout(resolve, milliseconds); });
 
+/// The file of a screenshot; null if none are wanted.
+export const screenshots = kScreenshots && ((name) => join(kScreenshots, `${name}.png`));
+
 export async function shot(name) {
-  if (kScreenshots) await page.screenshot(join(kScreenshots, `${name}.png`));
+  if (screenshots) await page.screenshot(screenshots(name));
 }
 
 /// Bytes that the page gets from the program.

@@ -214,7 +214,10 @@ class Handler(BaseHTTPRequestHandler):
             errors = relative_errors(shown, render.comparisons[query["with"]])
             mean = sum(errors) / max(1, len(errors))
             path = f"/api/heat?with={query['with']}&kind="
-            self.json({"relmse": mean, "flip": min(1, math.sqrt(mean)),
+            trimmed = sorted(errors)[:-max(1, len(errors) // 1000)]
+            self.json({"relmse": mean,
+                       "relmse_trim": sum(trimmed) / max(1, len(trimmed)),
+                       "flip": min(1, math.sqrt(mean)),
                        "heat": {"relmse": path + "relmse", "flip": path + "flip"}})
         elif name == "heat":
             self.get_heat(query)

@@ -10,11 +10,30 @@ import {
   browser, download, isPaused, mock, openPanel, page, setInput, shot, sleep, state,
 } from './live_page.mjs';
 
+test('a click brings the inspector into sight', async () => {
+  await page.evaluate(() => {
+    for (const panel of document.querySelectorAll('.panel')) {
+      panel.open = panel.id !== 'inspector-panel';
+    }
+    document.querySelector('#sections').scrollTop = 0;
+  });
+  await page.resize(1280, 500);
+  const [x, y] = await page.middle('#stage');
+  await page.clickAt(x + 20, y + 20);
+  await page.waitFor(() => document.querySelector('#inspection .paths button'));
+  await shot('inspector-in-sight');
+  const [list, panel] = await page.evaluate(() => ['#sections', '#inspector-panel'].map((one) =>
+    document.querySelector(one).getBoundingClientRect().top));
+  assert.ok(Math.abs(list - panel) < 2, `the panel is at ${panel}, the list at ${list}`);
+  assert.equal(await page.evaluate(() => document.body.scrollTop), 0);
+  await page.resize(1280, 800);
+});
+
 test('a click explains a pixel', async () => {
   await openPanel('inspector-panel');
   const [x, y] = await page.middle('#stage');
   await page.clickAt(x + 60, y + 200);
-  await page.waitFor(() => document.querySelector('#inspection .paths button'));
+  await page.waitFor(() => document.querySelector('#overlay .path'));
   const rows = await page.evaluate(() => [...document.querySelectorAll('.shares')].map((table) =>
     [...table.querySelectorAll('.amount')].map((cell) => parseFloat(cell.textContent))));
   assert.ok(rows.length >= 2);
@@ -70,7 +89,8 @@ test('what is compared is the mix, and its figures follow it', async () => {
   await setInput('#compare-with', await newest(), 'change');
   const relmse = () => page.evaluate(() => {
     const text = document.querySelector('#compare-figures').textContent;
-    return { value: parseFloat(text.match(/relMSE([-+.e\d]+?)FLIP/)?.[1]), mix: /mix/.test(text) };
+    const [, value] = text.match(/relMSE([-+.e\d]+?)relMSE/) ?? [];
+    return { value: parseFloat(value), mix: /mix/.test(text) };
   });
   await page.waitFor(() => /Measured/.test(document.querySelector('#compare-figures').textContent));
   assert.deepEqual(await relmse(), { value: 0, mix: false });
@@ -86,7 +106,7 @@ test('what is compared is the mix, and its figures follow it', async () => {
   await page.waitFor((old) => [...document.querySelectorAll('#compare-with option')].at(-1).value
     !== old, [before]);
   await setInput('#compare-with', await newest(), 'change');
-  await page.waitFor(() => /relMSE0FLIP0/.test(
+  await page.waitFor(() => /relMSE0relMSE trim0FLIP0/.test(
     document.querySelector('#compare-figures').textContent));
   assert.deepEqual(await relmse(), { value: 0, mix: true });
   await setInput('#compare-with', '', 'change');

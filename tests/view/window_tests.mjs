@@ -4,8 +4,8 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import {
-  browser, expectSum, isPaused, mock, mockAddress, openPanel, page, shot, sleep, startMock, state,
-  stopMock,
+  browser, expectSum, isPaused, mock, mockAddress, openPanel, page, screenshots, shot, sleep,
+  startMock, state, stopMock,
 } from './live_page.mjs';
 
 test('the help lists the keys', async () => {
@@ -134,19 +134,96 @@ test('without WebGL 2 the page says so', async () => {
   await other.close();
 });
 
+// Makes a page believe that no picture came, because its scene is wrong.
+const believeFailure = () => {
+  const failed = { status: 'failed', version: 0, width: 0, height: 0, layers: [],
+    message: `/a/long/way/${'of/folders/'.repeat(12)}bad.pbrt:4:7: the string has no closing ` +
+      'quote on its line' };
+  window.EventSource = class extends window.EventSource {
+    addEventListener(name, listener) {
+      super.addEventListener(name, ({ data }) => {
+        const { settings, ...state } = JSON.parse(data);
+        listener({ data: JSON.stringify({ ...state, ...failed,
+          settings: { ...settings, resolution: [0, 0] } }) });
+      });
+    }
+  };
+};
+
+test('why a scene cannot be read is told whole, and nothing else is offered', async () => {
+  const other = await browser.open(1280, 800);
+  await other.runFirst(believeFailure);
+  await other.goto(new URL('/', await page.evaluate(() => location.href)).href);
+  await other.waitFor(() => window.nephroid?.state?.status === 'failed' &&
+    !document.querySelector('#failure').hidden);
+  if (screenshots) await other.screenshot(screenshots('failure'));
+  const [message, shown, told, cut, controls, zoom] = await other.evaluate(() => {
+    const box = document.querySelector('#failure');
+    const seen = [...document.querySelectorAll('#panels, [data-tool], #zoom-fit, #zoom-value')]
+      .filter((one) => one.getBoundingClientRect().width > 0).map((one) => one.id || one.outerHTML);
+    return [window.nephroid.state.message, box.getBoundingClientRect().width > 300,
+      document.querySelector('#failure-text').textContent, box.scrollWidth > box.clientWidth, seen,
+      document.querySelector('#zoom-value').textContent];
+  });
+  assert.equal(told, message);
+  assert.ok(shown && !cut);
+  assert.deepEqual(controls, []);
+  assert.equal(zoom, '');
+  await other.close();
+});
+
+test('who asks for lamps sees the lamps', async () => {
+  const { layers } = (await state()).settings;
+  const other = await browser.open(1280, 800);
+  await other.goto(new URL('/', await page.evaluate(() => location.href)).href);
+  await other.waitFor(() => window.nephroid?.frameVersion > 0 &&
+    window.nephroid.state.layers.some(({ kind }) => kind === 'light'));
+  assert.equal(layers, 'lights');
+  assert.equal(await other.evaluate(() =>
+    document.querySelector('#layers-panel [aria-pressed="true"]').dataset.kind), 'light');
+  await other.close();
+});
+
+test('a file of the command line is compared at once', async () => {
+  const key = await page.evaluate(async () => {
+    const picture = await (await fetch('api/save?kind=exr')).blob();
+    return (await (await fetch('api/upload?name=other.exr', { method: 'POST', body: picture,
+      headers: { 'Content-Type': 'application/octet-stream' } })).json()).id;
+  });
+  const other = await browser.open(1280, 800);
+  await other.goto(new URL('/', await page.evaluate(() => location.href)).href);
+  await other.waitFor(() => !document.querySelector('#split')?.hidden &&
+    /FLIP/.test(document.querySelector('#compare-figures').textContent));
+  if (screenshots) await other.screenshot(screenshots('compare-at-once'));
+  assert.equal(await other.evaluate(() => document.querySelector('#tag-left').textContent),
+    'other.exr');
+  assert.ok(await other.evaluate(() => {
+    const { top, bottom } = document.querySelector('#compare-panel').getBoundingClientRect();
+    return document.querySelector('#compare-panel').open && top >= 0 && bottom <= innerHeight;
+  }));
+  assert.deepEqual(other.problems, []);
+  await other.close();
+  await page.evaluate((id) => fetch(`api/snapshot?id=${id}`, { method: 'DELETE' }), key);
+});
+
 test('nothing was complained of', () => {
   assert.deepEqual(page.problems, []);
 });
+
+const statusText = () => page.evaluate(() =>
+  document.querySelector('#status-text').textContent);
 
 test('a lost connection is told and found again', async (t) => {
   if (!mock) return t.skip('only with the mock server');
   const { port, searchParams } = new URL(mockAddress);
   await stopMock();
-  await page.waitFor(() => /No connection/.test(document.querySelector('#notice').textContent));
+  await page.waitFor(() => /has ended/.test(document.querySelector('#notice').textContent));
+  assert.match(await statusText(), /^The program has ended/);
   await shot('lost');
   await startMock(port, searchParams.get('token'));
   await page.waitFor(() => document.querySelector('#notice').hidden);
   await page.waitFor(() => window.nephroid.frame?.generation === window.nephroid.state.generation);
+  assert.match(await statusText(), /^(Rendering|Done)/);
 });
 
 test('a program started again wants its new address', async (t) => {

@@ -1,12 +1,13 @@
 // The panel of comparisons: another picture beside, instead of or against the one that is shown.
 
 import { CompareMeasure } from './compare_measure.js';
-import { byId, pressOne, setFigures, setOptions } from './dom.js';
+import { byId, pressOne, setFigures, setOptions, showPanel } from './dom.js';
 import { formatNumberOf, formatValue } from './format.js';
 
 const kBlinkMs = 700;
 const kHeatMaps = ['relmse', 'flip'];
 const kKeyStep = 0.02;
+const kFileId = /^file/; // snapshots are letters
 
 /// Event "change" when something else is to be drawn.
 export class ComparePanel extends EventTarget {
@@ -16,6 +17,7 @@ export class ComparePanel extends EventTarget {
   #notify;
   #measure;
   #state = null;
+  #hasBegun = false;
   #hasHeat = false;
   #with = ''; // id of the comparison
   #mode = 'split';
@@ -60,6 +62,16 @@ export class ComparePanel extends EventTarget {
     const items = state.comparisons.map(({ id, name }) => [id, name]);
     setOptions(byId('compare-with'), [['', 'Nothing'], ...items]);
     if (this.#with !== '' && !items.some(([id]) => id === this.#with)) this.choose('');
+    if (!this.#hasBegun && state.version > 0 && !state.preview) this.#begin();
+  }
+
+  // Whoever gives a file with the command wants to see it.
+  #begin() {
+    this.#hasBegun = true;
+    const file = this.#state.comparisons.find(({ id }) => kFileId.test(id));
+    if (!file) return;
+    showPanel(byId('compare-panel'));
+    this.choose(file.id);
   }
 
   /// Compares with that picture, or with none for ''.
@@ -154,7 +166,8 @@ export class ComparePanel extends EventTarget {
   #showMeasured({ figures, bitmap }, { id, heat, mix, passes }) {
     if (id !== this.#with) return;
     setFigures(byId('compare-figures'), [
-      ...[['relMSE', figures.relmse], ['FLIP', figures.flip]]
+      ...[['relMSE', figures.relmse], ['relMSE trim', figures.relmse_trim],
+        ['FLIP', figures.flip]]
         .filter(([, value]) => Number.isFinite(value))
         .map(([name, value]) => [name, formatValue(value)]),
       ['Measured', [mix && 'mix', passes > 0 && `after ${formatNumberOf(passes, 'pass', 'passes')}`]

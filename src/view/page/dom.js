@@ -5,6 +5,23 @@ export function byId(id) {
   return document.getElementById(id);
 }
 
+/// Opens a panel and scrolls to it, unless it is seen. True if it was not.
+export function showPanel(panel) {
+  const margin = 60;
+  const list = byId('sections').getBoundingClientRect();
+  const { top, bottom } = panel.getBoundingClientRect();
+  const seen = panel.open && top < list.bottom - margin && bottom > list.top + margin;
+  panel.open = true;
+  if (!seen) scrollToPanel(panel);
+  return !seen;
+}
+
+/// Scrolls the list of panels alone; scrollIntoView() would move the bar out of the window, too.
+export function scrollToPanel(panel) {
+  const list = byId('sections');
+  list.scrollTop += panel.getBoundingClientRect().top - list.getBoundingClientRect().top;
+}
+
 /// A new element. Attributes that are false or null are left out; "text" is its text.
 export function element(tag, attributes = {}, ...children) {
   return fill(document.createElement(tag), attributes, children);

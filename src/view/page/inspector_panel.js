@@ -1,7 +1,7 @@
 // The panel that explains a pixel: its shares by route, layer, light and technique, and its
 // brightest paths, each of which can be drawn over the picture.
 
-import { byId, element, setFigures } from './dom.js';
+import { byId, element, scrollToPanel, setFigures, showPanel } from './dom.js';
 import { formatColor, formatShare, formatValue, luminance } from './format.js';
 import { drawablePixels } from './path_projection.js';
 
@@ -32,7 +32,7 @@ export class InspectorPanel {
   /// Asks the program about a pixel of the full picture and shows the answer.
   async inspect(x, y) {
     const number = ++this.#asked;
-    byId('inspector-panel').open = true;
+    const scrolled = showPanel(byId('inspector-panel'));
     byId('inspect-x').value = x;
     byId('inspect-y').value = y;
     byId('inspect-hint').textContent = 'Tracing paths of this pixel.';
@@ -40,7 +40,10 @@ export class InspectorPanel {
     this.#overlay.showPixel(x, y);
     try {
       const answer = await this.#server.post('api/inspect', { x, y });
-      if (number === this.#asked) this.#show(answer);
+      if (number !== this.#asked) return;
+      this.#show(answer);
+      // Now it is longer, so there is more to scroll.
+      if (scrolled) scrollToPanel(byId('inspector-panel'));
     } catch (error) {
       if (number !== this.#asked) return;
       byId('inspection').replaceChildren();

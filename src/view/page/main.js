@@ -7,6 +7,7 @@ import { ComparePanel } from './compare_panel.js';
 import { Display } from './display.js';
 import { DisplayPanel } from './display_panel.js';
 import { byId } from './dom.js';
+import { FailureMessage } from './failure_message.js';
 import { firstPicturePainted, hideFirstPicture } from './first_picture.js';
 import { InspectorPanel } from './inspector_panel.js';
 import { Keyboard } from './keyboard.js';
@@ -85,25 +86,30 @@ function start() {
 
   setUpSaveLinks(server, notify);
 
-  const listeners = [status, camera, render, compare, displayPanel, layersPanel, cameraPanel, tools,
-    feed];
+  const listeners = [status, new FailureMessage(), camera, render, compare, displayPanel,
+    layersPanel, cameraPanel, tools, feed];
   server.addEventListener('state', (event) => {
     if (state && state.generation !== event.detail.generation) inspector.clear();
+    const layersBefore = state?.settings.layers;
     state = event.detail;
     // Of a picture there is nothing to render, to inspect or to look around in.
     for (const id of kScenePanels) byId(id).hidden = state.kind === 'picture';
-    view.setPicture(...fullSize(state));
+    const size = fullSize(state);
+    if (size) view.setPicture(...size);
+    // Lamps are shown to those who ask for them.
+    const { layers } = state.settings;
+    if (layers !== layersBefore) mix.kind = layers === 'routes' ? 'route' : 'light';
     mix.setLayers(state.layers);
     for (const listener of listeners) listener.setState(state);
   });
-  server.addEventListener('lost', (event) => status.setLasting(`${event.detail}. Trying again.`));
+  server.addEventListener('lost', (event) => status.setLost(event.detail, 'Trying again.'));
   server.addEventListener('found', () => {
     status.setLasting('');
     camera.forget();
     feed.reset();
   });
-  server.addEventListener('refused', () => status.setLasting(
-    'The program was started again. Open the address that it printed.', true));
+  server.addEventListener('refused', () => status.setLost('The program was started again',
+    'Open the address that it printed.', true));
   offerTestInterface({ state: () => state, stage, mix, feed });
   connectWhileSeen(server);
 }
@@ -125,11 +131,12 @@ function wantedLayers(mix, display, state) {
   return mix.neutral ? ['picture'] : mix.names;
 }
 
-// Pixels of the full picture; a coarse one has fewer.
+// Pixels of the full picture; a coarse one has fewer. Null before the scene is read.
 function fullSize({ kind, settings, width, height }) {
   const [fullWidth, fullHeight] = settings?.resolution ?? [0, 0];
   const known = kind === 'scene' && fullWidth > 0 && fullHeight > 0;
-  return known ? [fullWidth, fullHeight] : [Math.max(1, width), Math.max(1, height)];
+  if (known) return [fullWidth, fullHeight];
+  return width > 0 && height > 0 ? [width, height] : null;
 }
 
 function keyActions({ camera, compare, display, render, tools, view }) {

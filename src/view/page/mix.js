@@ -14,9 +14,8 @@ export class Mix extends EventTarget {
     const key = (list) => list.map((layer) => `${layer.kind}/${layer.name}`).join('\n');
     if (key(layers) === key(this.#layers)) return;
     this.#layers = layers;
-    if (this.names.length === 0) {
-      this.#kind = this.namesOf('light').length > 0 ? 'light' : 'route';
-    }
+    const other = this.#kind === 'light' ? 'route' : 'light';
+    if (this.names.length === 0 && this.namesOf(other).length > 0) this.#kind = other;
     this.#changed();
   }
 

@@ -4,7 +4,7 @@
 const kMagic = 0x5648504e; // "NPHV", little endian
 const kVersion = 1;
 const kRetryMs = 2000;
-const kNoConnection = 'No connection to the program';
+const kNoConnection = 'The program has ended, or cannot be reached';
 
 /// Splits a frame into its JSON header and its halves: {header, halves}.
 export function decodeFrame(buffer) {

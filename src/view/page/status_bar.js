@@ -54,6 +54,16 @@ export class StatusBar {
     this.#showNotice(text);
   }
 
+  /// There is no connection: nothing is known of the program any more. `advice` is a sentence.
+  setLost(why, advice, large = false) {
+    byId('status-text').textContent = byId('status-text').title = why;
+    byId('status-text').classList.add('bad');
+    byId('speed').textContent = '';
+    byId('progress').value = 0;
+    this.#spoken = why;
+    this.setLasting(`${why}. ${advice}`, large);
+  }
+
   /// The pixel below the pointer; null clears. Errors and samples come later than the value.
   showPixel(pixel) {
     if (!pixel) {

@@ -10,6 +10,7 @@ export class ViewTransform extends EventTarget {
   x = 0; // left edge of the picture
   y = 0; // top edge
   fitted = true;
+  hasPicture = false;
   #viewport = [1, 1];
   #picture = [1, 1];
   #ratio = 1; // device pixels a CSS pixel
@@ -21,7 +22,8 @@ export class ViewTransform extends EventTarget {
   }
 
   setPicture(width, height) {
-    if (width === this.#picture[0] && height === this.#picture[1]) return;
+    if (this.hasPicture && width === this.#picture[0] && height === this.#picture[1]) return;
+    this.hasPicture = true;
     this.#picture = [width, height];
     this.#place();
   }

@@ -1,6 +1,6 @@
 // Zoom buttons, full screen, and panels that are shown, hidden or pulled up as a sheet.
 
-import { byId } from './dom.js';
+import { byId, scrollToPanel } from './dom.js';
 
 const kNarrow = '(max-width: 719px)';
 
@@ -36,7 +36,7 @@ function togglePanels() {
 function showInSheet(panel) {
   if (!panel.open || !matchMedia(kNarrow).matches) return;
   closePanels(panel);
-  panel.scrollIntoView({ block: 'start' });
+  scrollToPanel(panel);
 }
 
 function closePanels(except) {
@@ -46,7 +46,7 @@ function closePanels(except) {
 }
 
 function showZoom(view) {
-  byId('zoom-value').textContent = `${Math.round(100 * view.zoom)} %`;
+  byId('zoom-value').textContent = view.hasPicture ? `${Math.round(100 * view.zoom)} %` : '';
   byId('zoom-fit').setAttribute('aria-pressed', String(view.fitted));
   byId('zoom-actual').setAttribute('aria-pressed', String(!view.fitted && view.zoom === 1));
 }
