@@ -204,6 +204,7 @@ Answer Answers::compare(const Parameters& parameters, const std::string&) {
     return fmt::format("/api/heat?with={}&kind={}", id, kind);
   };
   return json_answer({{"relmse", found.relmse},
+                      {"relmse_trim", found.relmse_trim},
                       {"flip", found.flip},
                       {"heat", {{"relmse", heat("relmse")}, {"flip", heat("flip")}}}});
 }
@@ -249,9 +250,12 @@ Answer Answers::save(const Parameters& parameters, const std::string&) {
 
 Answer Answers::save_scene(const std::string& file_name) {
   const fs::path scene = source_.state().name;
-  if (!is_pbrt_scene(scene.string()) || scene == kStandardInput)
-    throw UsageError(
-        "only a pbrt scene in a file can be included, expected one: nephroid convert makes it");
+  if (scene == kStandardInput)
+    throw UsageError("the new camera needs a scene in a file, this one is from standard input");
+  if (!is_pbrt_scene(scene.string()))
+    throw UsageError(fmt::format(
+        "the new camera needs a pbrt scene: nephroid convert {} {}.pbrt, then open that",
+        scene.string(), scene.stem().string()));
   const std::string text = scene_text_with_camera(view_of(live()), scene.filename().string());
   if (save_directory_.empty()) return text_answer(text, file_name);
   const TemporaryDirectory directory;

@@ -99,7 +99,8 @@ std::shared_ptr<const Picture> Comparisons::find(const std::string& id) const {
 }
 
 Distance distance(const Picture& reference, const Picture& test) {
-  return {compare_pictures(reference, test, {}).relmse, flip(reference, test, kExposure)};
+  const Comparison errors = compare_pictures(reference, test, {});
+  return {errors.relmse, errors.relmse_trim, flip(reference, test, kExposure)};
 }
 
 std::vector<uint8_t> heat_png(const Picture& reference, const Picture& test,

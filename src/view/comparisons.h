@@ -21,7 +21,7 @@ Picture color_picture(const Picture& picture);
 
 /// How far a picture is from another one.
 struct Distance {
-  double relmse = 0, flip = 0;
+  double relmse = 0, relmse_trim = 0, flip = 0;
 };
 
 class Comparisons {

@@ -22,7 +22,7 @@ class GreySource final : public ViewSource {
  public:
   LiveState state() const override {
     LiveState state;
-    state.name = "grey";
+    state.name = name_;
     state.is_scene = false;
     state.status = LiveStatus::kDone;
     return state;
@@ -51,8 +51,10 @@ class GreySource final : public ViewSource {
   }
   void write(const std::string&) override { throw IoError("there is no disk"); }
   void set_payload(size_t bytes) { payload_ = bytes; }
+  void set_name(const std::string& name) { name_ = name; }
 
  private:
+  std::string name_ = "grey";
   size_t payload_ = 0;
 };
 
@@ -188,11 +190,24 @@ TEST_F(Server, AnswersWhatIsWrongWithARequest) {
   EXPECT_EQ(error_of(answer), "there is no disk");
 }
 
+TEST_F(Server, SaysHowASceneOfAnotherFormatGetsANewCamera) {
+  const auto error = [this](const std::string& scene) {
+    source_.set_name(scene);
+    const auto answer = client().Get("/api/save?kind=scene", of_browser());
+    return nlohmann::json::parse(answer->body)["error"].get<std::string>();
+  };
+  EXPECT_EQ(error("models/vase.glb"),
+            "the new camera needs a pbrt scene: nephroid convert models/vase.glb vase.pbrt, then "
+            "open that");
+  EXPECT_EQ(error("-"), "the new camera needs a scene in a file, this one is from standard input");
+}
+
 TEST_F(Server, ComparesWithSnapshots) {
   EXPECT_EQ(status_of_post("/api/snapshot", of_page(), "{}"), 200);
   const auto answer = client().Get("/api/compare?with=A", of_browser());
   const nlohmann::json json = nlohmann::json::parse(answer->body);
   EXPECT_EQ(json["relmse"], 0);
+  EXPECT_EQ(json["relmse_trim"], 0);
   EXPECT_EQ(json["flip"], 0);
   const auto heat = client().Get(json["heat"]["flip"].get<std::string>(), of_browser());
   EXPECT_EQ(heat->get_header_value("Content-Type"), "image/png");
