@@ -20,6 +20,7 @@
 #include "film/image_io.h"
 #include "session/checkpoint/checkpoint.h"
 #include "session/checkpoint/picture_description.h"
+#include "view/first_reading.h"
 #include "view/live_render.h"
 #include "view/picture_source.h"
 #include "view/server.h"
@@ -33,6 +34,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kPoll{50};
 constexpr int kPollsPerLook = 20;  ///< between two looks at the scene's files
+/// A missing file is told before a browser opens; a large scene may take longer to read.
+constexpr std::chrono::milliseconds kFirstLook{20};
 
 /// Opens the page in the user's browser, if there is a screen. Ctrl-C does not reach the browser.
 void open_browser(const std::string& url) {
@@ -104,11 +107,49 @@ class Checkpoints {
   Clock::time_point next_ = Clock::now() + kInterval;
 };
 
+/// Says at the terminal why the scene cannot be read, once after each reading.
+class FailureMessages {
+ public:
+  explicit FailureMessages(const LiveRender* live) : live_(live) {}
+
+  /// Waits a moment for the end of the first reading.
+  void wait_briefly() {
+    const auto end = std::chrono::steady_clock::now() + kFirstLook;
+    while (live_ != nullptr && live_->state().status == LiveStatus::kLoading &&
+           std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    say_news();
+  }
+
+  /// Throws the error of the first reading if waiting cannot mend it.
+  void say_news() {
+    if (live_ == nullptr) return;
+    const LiveState state = live_->state();
+    if (state.status != LiveStatus::kFailed) return;
+    const bool has_picture = state.version > 0;
+    if (!has_picture && !can_be_mended(state.name, state.failure))
+      throw Error(state.failure, state.message);
+    // A reload counts as an edit.
+    if (state.generation == said_generation_ && state.message == said_) return;
+    said_generation_ = state.generation;
+    said_ = state.message;
+    print_error(said_);
+    say("the view waits: it reads the scene again when its files change\n");
+  }
+
+ private:
+  const LiveRender* live_;
+  uint64_t said_generation_ = 0;
+  std::string said_;
+};
+
 /// Waits for a signal; the scene is read again when its files change.
-void wait_for_end(LiveRender* live, Checkpoints& checkpoints, const SignalFlags& signals) {
+void wait_for_end(LiveRender* live, Checkpoints& checkpoints, FailureMessages& failures,
+                  const SignalFlags& signals) {
   WatchedFiles watched;
   for (int poll = 0; signals.stop.load() == 0; ++poll) {
     std::this_thread::sleep_for(kPoll);
+    failures.say_news();
     if (live == nullptr || poll % kPollsPerLook != 0) continue;
     if (watched.have_changed(live->files())) live->reload();
     checkpoints.write_if_due();
@@ -129,11 +170,13 @@ int serve(ViewSource& source, const ViewCommand& command, const std::string& out
         "--listen {}: whoever can reach this address and knows the token sees the scene; nothing "
         "is encrypted",
         command.address));
+  FailureMessages failures(source.live());
+  failures.wait_briefly();
   signals.note_stops(false);
   say(fmt::format("{}\n", server.url()));
   if (command.opens_browser) open_browser(server.url());
   Checkpoints checkpoints(source.live(), output);
-  wait_for_end(source.live(), checkpoints, signals.flags());
+  wait_for_end(source.live(), checkpoints, failures, signals.flags());
   // Reading a scene cannot be interrupted, and there is nothing to lose yet.
   if (source.state().status == LiveStatus::kLoading) std::_Exit(0);
   checkpoints.write_last();

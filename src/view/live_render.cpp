@@ -29,6 +29,11 @@ double steady_seconds() {
   return std::chrono::duration<double>(now).count();
 }
 
+ExitStatus status_of(const std::exception& error) {
+  const auto* own = dynamic_cast<const Error*>(&error);
+  return own != nullptr ? own->status() : ExitStatus::kRender;
+}
+
 std::chrono::duration<double> seconds(double value) {
   return std::chrono::duration<double>(value);
 }
@@ -253,6 +258,7 @@ void LiveRender::work() {
       publish([&](LiveState& state) {
         state.status = LiveStatus::kFailed;
         state.message = error.what();
+        state.failure = status_of(error);
       });
       refuse_tasks_until_edited(error.what());
     }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.h"
 #include "film/film_format.h"
 #include "session/camera_edit.h"
 #include "session/light_layers.h"
@@ -39,7 +40,8 @@ struct LiveState {
   std::string name;      ///< of the scene or picture
   bool is_scene = true;  ///< false: a picture, nothing renders
   LiveStatus status = LiveStatus::kLoading;
-  std::string message;  ///< why it failed, or why it is done
+  std::string message;                     ///< why it failed, or why it is done
+  ExitStatus failure = ExitStatus::kDone;  ///< of `nephroid render`, if it failed
   std::vector<std::string> warnings, notes, report;
   uint64_t generation = 0;    ///< counts edits
   uint64_t version = 0;       ///< counts pictures

@@ -3,7 +3,8 @@ import { spawn } from 'node:child_process';
 
 const kEndMs = 20000;
 
-/// Runs `nephroid view` with these arguments: {address, stop()}. stop() gives the exit status.
+/// Runs `nephroid view` with these arguments: {address, said(), stop()}. said() is what it
+/// has written to standard error, stop() gives the exit status.
 export async function startView(program, ...parameters) {
   const child = spawn(program, ['view', ...parameters, '--no-browser'],
     { stdio: ['ignore', 'ignore', 'pipe'] });
@@ -24,5 +25,5 @@ export async function startView(program, ...parameters) {
     clearTimeout(timer);
     return status;
   };
-  return { address, stop };
+  return { address, said: () => said, stop };
 }

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/errors.h"
+#include "view/first_reading.h"
 #include "view/temporary_directory.h"
 
 namespace nephroid {
@@ -172,11 +173,22 @@ TEST_F(Live, AWrongSceneIsToldAndReadAgain) {
   LiveRender live(request());
   ASSERT_TRUE(comes(live, [](const LiveState& s) { return s.status == LiveStatus::kFailed; }));
   EXPECT_NE(live.state().message.find("scene.pbrt:2:"), std::string::npos);
+  EXPECT_EQ(live.state().failure, ExitStatus::kScene);
   EXPECT_THROW(live.probe(0, 0), UsageError);
   write(kScene);
   live.reload();
   EXPECT_TRUE(has_picture(live));
   EXPECT_EQ(live.state().status, LiveStatus::kRendering);
+}
+
+TEST_F(Live, OnlyMistakesInFilesOfScenesAreWaitedFor) {
+  EXPECT_TRUE(can_be_mended("s.pbrt", ExitStatus::kScene));
+  EXPECT_TRUE(can_be_mended("S.PBRT.gz", ExitStatus::kScene));
+  EXPECT_TRUE(can_be_mended("vase.glb", ExitStatus::kScene));
+  EXPECT_FALSE(can_be_mended("nix.obj", ExitStatus::kInputOutput));
+  EXPECT_FALSE(can_be_mended("s.pbrt", ExitStatus::kUsage));
+  EXPECT_FALSE(can_be_mended("picture.exr", ExitStatus::kScene));
+  EXPECT_FALSE(can_be_mended("-", ExitStatus::kScene));
 }
 
 TEST_F(Live, KnowsTheFilesOfItsScene) {
