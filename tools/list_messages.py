@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/messages.md"
 CALL = re.compile(
     r"throw (?:std::)?(\w*[Ee]rror|BadFile)\(|\b(fail|fail_at|wrong|refuse)\(|"
-    r"\b(warn\w*|warnings\.(?:push|emplace)_back)\(|notes\.(?:push|emplace)_back\(")
+    r"\b(warn\w*|warnings\.(?:push|emplace)_back)\(|notes\.(?:push|emplace)_back\(|diagnostics_?\.note\(")
 TOKEN = re.compile(r'R"(\w*)\((.*?)\)\1"|"((?:\\.|[^"\\])*)"|\'(?:\\.|[^\'\\])*\'|//[^\n]*|[()]|[^()"\'/]+|/', re.S)
 KINDS = {
     "UsageError": "The command line", "SceneError": "Scene files", "IoError": "Files", "Error": "Rendering",

@@ -1,14 +1,30 @@
 // `nephroid convert`: writes a scene of any format as a pbrt-v4 scene.
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "apps/commands.h"
 #include "apps/messages.h"
+#include "core/counted.h"
 #include "core/errors.h"
 #include "input/convert/pbrt_writer.h"
 #include "input/scene_reader.h"
 #include "session/process_memory.h"
 
 namespace nephroid {
+namespace {
+
+/// " and 3 files of meshes and images, vase-1 to vase-3" for vase.pbrt.
+std::string beside_it(const std::string& output, int files) {
+  if (files == 0) return "";
+  const std::string stem = std::filesystem::path(output).stem().string();
+  const std::string count = counted(static_cast<uint64_t>(files), "file");
+  if (files == 1) return fmt::format(" and {} of a mesh or image beside it, {}-1", count, stem);
+  return fmt::format(" and {} of meshes and images beside it, {}-1 to {}-{}", count, stem, stem,
+                     files);
+}
+
+}  // namespace
 
 int run_convert(const ConvertCommand& command) {
   MemoryLimit limit;
@@ -17,8 +33,9 @@ int run_convert(const ConvertCommand& command) {
   const SceneDescription scene = read_scene(command.input, command.import, diagnostics);
   for (const Warning& warning : diagnostics.warnings())
     print_warning(located(warning.where, warning.message));
-  write_pbrt(scene, command.output);
-  fmt::print("wrote {}\n", command.output);
+  for (const Warning& note : diagnostics.notes()) print_notes({located(note.where, note.message)});
+  const int files = write_pbrt(scene, command.output);
+  fmt::print("wrote {}{}\n", command.output, beside_it(command.output, files));
   return static_cast<int>(ExitStatus::kDone);
 }
 

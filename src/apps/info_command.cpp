@@ -66,8 +66,8 @@ void print_lights(const Scene& scene) {
              scene.lights.size(), infinite, delta);
 }
 
-/// "glass [S, line 12]": label, event classes and location of each material. A mix has the labels
-/// of its materials, so it is left out.
+/// "glass [S, line 12]": label, event classes and line of each material; glTF has no lines. A mix
+/// has the labels of its materials, so it is left out.
 std::vector<std::string> labels_of_materials(const SceneDescription& description,
                                              const Scene& scene) {
   std::vector<std::string> labels;
@@ -79,10 +79,9 @@ std::vector<std::string> labels_of_materials(const SceneDescription& description
       if (contains(material.possible_classes(), c)) classes += "DGS"[static_cast<size_t>(c)];
     const SourceLocation where =
         i < description.materials.size() ? description.materials[i].where : SourceLocation{};
-    labels.push_back(where.line > 0
-                         ? fmt::format("{} [{}, line {}]", scene.material_labels[i],
-                                       material.merges_photons() ? classes : "H", where.line)
-                         : scene.material_labels[i]);
+    if (!material.merges_photons()) classes = "H";
+    const std::string line = where.line > 0 ? fmt::format(", line {}", where.line) : "";
+    labels.push_back(fmt::format("{} [{}{}]", scene.material_labels[i], classes, line));
   }
   return labels;
 }
@@ -145,6 +144,7 @@ int run_info(const InfoCommand& command) {
   limit.set(machine_memory(), bytes_of_stacks_to_come(0));
   const LoadedScene loaded = load_scene(command.file, overrides);
   print_warnings(loaded.warnings);
+  print_notes(loaded.notes);
   const Scene& scene = *loaded.scene;
   fmt::print("scene: {}\n", command.file);
   print_film(scene);

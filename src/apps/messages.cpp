@@ -58,4 +58,8 @@ void print_warnings(const std::vector<std::string>& messages) {
   for (const std::string& message : messages) print_warning(message);
 }
 
+void print_notes(const std::vector<std::string>& messages) {
+  for (const std::string& message : messages) say(fmt::format("note: {}\n", printable(message)));
+}
+
 }  // namespace nephroid

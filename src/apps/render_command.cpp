@@ -74,7 +74,7 @@ void connect(Render& render, const RenderCommand& command, FrameStream& stream) 
 /// Connects a render with the terminal.
 void connect(Render& render, ProgressDisplay& display) {
   // Printed before the first ray, so that the user need not wait for them.
-  for (const std::string& note : render.notes()) say("note: " + note + "\n");
+  print_notes(render.notes());
   render.on_progress([&display](const RenderProgress& progress) { display.show(progress); });
 }
 

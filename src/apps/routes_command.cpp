@@ -136,6 +136,7 @@ int run_routes(const RoutesCommand& command) {
   request.settings = render_settings(command.settings);
   const LoadedScene loaded = load_small_scene(request, kPilotSize);
   print_warnings(loaded.warnings);
+  print_notes(loaded.notes);
   const Scene& scene = *loaded.scene;
   const IntegratorChoice choice = choose_integrator(request, scene);
   const RoutePlan plan = plan_of(command.routes, choice.name);

@@ -231,7 +231,7 @@ std::optional<BenchRendered> render_for_bench(const BenchRender& wanted, const P
   run.points = curve.finish(result.passes_done, result.seconds);
   rendered.warnings = render.estimators().warnings;
   for (const std::vector<std::string>& warnings :
-       {loaded.warnings, render.integrator().warnings, rendered.warnings})
+       {loaded.warnings, loaded.notes, render.integrator().warnings, rendered.warnings})
     run.notes.insert(run.notes.end(), warnings.begin(), warnings.end());
   fill_run(result, film, wanted, reference, &run);
   rendered.picture = film_picture(film, metadata_of(render.identity(), run));

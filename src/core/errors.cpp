@@ -18,22 +18,31 @@ SceneError::SceneError(SourceLocation where, const std::string& message)
     : Error(ExitStatus::kScene, located(where, message)), where_(std::move(where)) {}
 
 void Diagnostics::warn(SourceLocation where, std::string message) {
-  add({std::move(where), std::move(message), false});
+  add(warnings_, {std::move(where), std::move(message), false});
 }
 
 void Diagnostics::warn_of_unknown_name(SourceLocation where, std::string message) {
-  add({std::move(where), std::move(message), true});
+  add(warnings_, {std::move(where), std::move(message), true});
 }
 
-void Diagnostics::add(Warning warning) {
+void Diagnostics::note(SourceLocation where, std::string message) {
+  add(notes_, {std::move(where), std::move(message), false});
+}
+
+void Diagnostics::add(std::vector<Warning>& to, Warning warning) {
   const std::lock_guard lock(mutex_);
   if (known_.insert(located(warning.where, warning.message)).second)
-    warnings_.push_back(std::move(warning));
+    to.push_back(std::move(warning));
 }
 
 std::vector<Warning> Diagnostics::warnings() const {
   const std::lock_guard lock(mutex_);
   return warnings_;
+}
+
+std::vector<Warning> Diagnostics::notes() const {
+  const std::lock_guard lock(mutex_);
+  return notes_;
 }
 
 }  // namespace nephroid

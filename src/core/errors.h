@@ -64,21 +64,24 @@ struct Warning {
   bool is_unknown_name = false;  ///< true if the scene uses an unknown name: an error with --strict
 };
 
-/// Collects warnings while a scene is loaded; may be called from several threads.
+/// Collects warnings and notes while a scene is loaded; may be called from several threads.
 /// The same message at the same place is kept once.
 class Diagnostics {
  public:
   void warn(SourceLocation where, std::string message);
   /// Warns of a name that the format does not have; it is ignored.
   void warn_of_unknown_name(SourceLocation where, std::string message);
+  /// Tells of a choice or a fact that is normal, such as a default camera.
+  void note(SourceLocation where, std::string message);
   std::vector<Warning> warnings() const;
+  std::vector<Warning> notes() const;
 
  private:
-  void add(Warning warning);
+  void add(std::vector<Warning>& to, Warning warning);
 
   mutable std::mutex mutex_;
-  std::vector<Warning> warnings_;
-  std::unordered_set<std::string> known_;  ///< the located texts of warnings_
+  std::vector<Warning> warnings_, notes_;
+  std::unordered_set<std::string> known_;  ///< the located texts of both
 };
 
 /// "file:line:column: message", or just the message if the location is unknown.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <thread>
@@ -58,6 +59,7 @@ OIIO::ImageSpec png_spec(int width, int height) {
 std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
   if (const std::string fault = fault_of_exr_header(path); !fault.empty())
     throw IoError(path + ": cannot read: " + fault);
+  if (!std::filesystem::exists(path)) throw IoError(path + ": cannot read: there is no such file");
   auto in = OIIO::ImageInput::open(path);
   if (!in) {
     const std::string reason = OIIO::geterror();

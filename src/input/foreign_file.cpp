@@ -49,6 +49,7 @@ constexpr Format kNames[] = {
     {".abc", "an Alembic scene", kScene},    {".xml", "an XML scene", kScene},
     {".obj", "a Wavefront OBJ mesh", kObj},  {".mtl", "a Wavefront material library", kScene},
     {".stl", "an STL mesh", kMesh},          {".ply", "a PLY mesh", kPly},
+    {".exr", "no OpenEXR picture", kImage},
 };
 
 bool is_blank(char c) {

@@ -6,6 +6,7 @@
 
 #include "input/file_bytes.h"
 #include "input/gltf/gltf_reader.h"
+#include "input/missing_images.h"
 #include "input/mitsuba/mitsuba_reader.h"
 #include "input/obj/obj_scene.h"
 #include "input/pbrt_parser.h"
@@ -91,6 +92,7 @@ SceneDescription read_scene(const std::string& path, const ImportOptions& option
   warn_of_foreign_options(format, path, options, diagnostics);
   SceneDescription scene = format.read(path, options, diagnostics, std::move(files));
   warn_of_missing_choices(scene, options, diagnostics);
+  if (!format.traits.is_complete) refuse_missing_images(scene);
   stage_scene(&scene, format.traits, options, diagnostics);
   return scene;
 }

@@ -64,6 +64,9 @@ void check_command(const std::vector<std::string>& arguments) {
   std::vector<std::string> known;
   for (const CommandDescription& command : command_table()) known.emplace_back(command.name);
   if (std::find(known.begin(), known.end(), arguments[0]) != known.end()) return;
+  if (arguments[0].find('.') != std::string::npos)
+    throw UsageError(fmt::format("'{}' is no command, expected: nephroid render {}", arguments[0],
+                                 arguments[0]));
   throw UsageError(fmt::format("unknown command '{}', expected one of: {}{}", arguments[0],
                                fmt::join(known, ", "), did_you_mean(arguments[0], known)));
 }

@@ -19,6 +19,9 @@ Made from the tables of the importer by `tools/update_docs`; do not edit.
 - **ignored**: the picture does not need it, or a warning says what is lost;
 - **refused**: an error if the file requires it.
 
+The picture is `model.exr` in the current directory, unless `-o` names another. A missing image is an error, which names all missing
+images.
+
 Warnings and errors name the file and a JSON pointer: `model.glb#/materials/3: ...`. An extension
 that is not in the table is an error if the file requires it, else a warning.
 

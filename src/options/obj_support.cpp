@@ -23,11 +23,13 @@ Unknown keywords give a warning, and with `--strict` an error. A wrong number or
 
 - An OBJ file has no camera and no light. The view is from the front right, the front is +z, and up is +y. A grey sky and a soft
   lamp light it. `--floor`, `--sun`, `--environment` and `--exposure` change that ([options](options.md#render)).
-- Materials that emit are the light of a file that has them. The exposure is chosen for them unless `--exposure` gives one:
+- The picture of `model.obj` is `model.exr` in the current directory, unless `-o` names another.
+- Materials that emit are the light of a file that has them, and lamps have their names. The exposure is chosen for them unless `--exposure` gives one:
   `--exposure 0` shows a candela per square metre as 1.
 - Files lie in the folder of the scene or below it; `--allow-outside` permits others. Images are looked for in the folder of the
   MTL file that names them.
-- A missing MTL file is a warning, and so is a material that is not defined; the faces are grey. A missing image is an error.
+- A missing MTL file is a warning, and so is a material that is not defined; the faces are grey. A missing image is an error, which
+  names all missing images.
 - Faces without normals are flat. Texture coordinates have (0, 0) at the lower left of an image.
 - Images of colours are sRGB if they store integers. Those of numbers (`map_d`, `map_Pr`, `map_Pm`, `bump`) are linear.
 )";

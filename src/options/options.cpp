@@ -148,7 +148,7 @@ constexpr CommandDescription kCommands[] = {
     {"info", "Describe a scene file, or the render stored in a picture."},
     {"routes", "Say who renders which light, prove it, and measure it in a scene."},
     {"compare", "Measure how far a picture is from a reference."},
-    {"convert", "Write a scene as a pbrt-v4 scene, with its meshes beside it."},
+    {"convert", "Write a scene as a pbrt-v4 scene, with its meshes and images beside it."},
     {"bench", "Run a suite of integrators and scenes and write its results."},
 };
 
@@ -157,7 +157,7 @@ const OptionDescription kOptions[] = {
      "A scene: pbrt-v4, glTF, Mitsuba XML or OBJ; - for standard input.", false,
      [](CommandLine& l, const std::string& t) { l.render.scene = t; }},
     {"render", "--output", "-o", "OUT.exr", "",
-     "named after the scene's film, in the current directory", "Output",
+     "SCENE.exr, or as its Film says, in the current directory", "Output",
      "The picture with all its layers. A PNG is written beside it.", false,
      set_output<&CommandLine::render>},
     {"render", "--aov", "", "NAME=EXPR", "", "", "Output", kAovHelp, true,
@@ -283,7 +283,7 @@ const OptionDescription kOptions[] = {
      "A scene: pbrt-v4, glTF, Mitsuba XML or OBJ; - for standard input.", false,
      [](CommandLine& l, const std::string& t) { l.convert.input = t; }},
     {"convert", "OUT.pbrt", "", "", "", "", "",
-     "The scene as text. Meshes and images of the file get names that begin like it.", false,
+     "The scene as text. Meshes and images are files beside it: OUT-1.ply, OUT-2.png ...", false,
      set_converted},
     {"bench", "SUITE", "", "", "", "", "", "A suite (docs/bench.md has the format).", false,
      [](CommandLine& l, const std::string& t) { l.bench.suite = t; }},

@@ -10,7 +10,7 @@ CompiledPlan compile_plan(const RoutePlan& plan, const Scene& scene) {
       std::make_shared<const SceneSymbols>(scene, mentioned_labels(plan.routes, plan.aovs));
   return {symbols,
           compile_routes(plan.routes, plan.aovs, &symbols->present(), scene.camera->connects()),
-          plan.strict};
+          plan.strict, plan.has_own_routes};
 }
 
 }  // namespace nephroid

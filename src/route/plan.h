@@ -14,13 +14,15 @@ namespace nephroid {
 struct RoutePlan {
   std::vector<RouteDefinition> routes;
   std::vector<AovDefinition> aovs;
-  bool strict = false;  ///< true: overlaps are errors
+  bool strict = false;          ///< true: overlaps are errors
+  bool has_own_routes = false;  ///< true: the user wrote them, so none should stay black
 };
 
 struct CompiledPlan {
   std::shared_ptr<const SceneSymbols> symbols;
   RouteCompilation compilation;
   bool strict = false;
+  bool has_own_routes = false;
 };
 
 /// Compiles a plan for a scene. Throws UsageError for a wrong expression. Findings of the proof are

@@ -51,7 +51,8 @@ void set_crop(FilmDescription& film, const ParameterSet& p, const SceneOverrides
 }
 
 constexpr FormatParameter kFilm[] = {
-    {"string", "filename", "nephroid.exr"},
+    {"string", "filename", "the scene file's name", "",
+     "of the picture, without folders; ends in .exr"},
     {"integer", "xresolution", "1280", "pixels", "1 to 65536"},
     {"integer", "yresolution", "720", "pixels", "1 to 65536"},
     {"integer[4]", "pixelbounds", "the full picture", "pixels", "x0 x1 y0 y1"},
@@ -162,7 +163,7 @@ FilmDescription make_film_description(const SceneDescription& description,
   film.max_component = positive(p, "maxcomponentvalue", kInfinity);
   film.color_space = RgbColorSpace::find(description.color_space);
   set_sensor(film, p, diagnostics);
-  film.filename = p.get_string("filename", "nephroid.exr");
+  film.filename = p.get_string("filename", "");
   film.diagonal_mm = positive(p, "diagonal", 35.0f);
   if (description.film) {
     const std::string& type = description.film->type;

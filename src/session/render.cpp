@@ -12,6 +12,7 @@
 #include "core/counted.h"
 #include "film/film_settings.h"
 #include "input/scene_files.h"
+#include "input/scene_reader.h"
 #include "session/film_of_scene.h"
 #include "session/process_memory.h"
 #include "session/settings/short_paths.h"
@@ -83,7 +84,7 @@ void refuse_unknown_names(const LoadedScene& loaded, const IntegratorChoice& cho
   if (names.empty()) return;
   throw SceneError({}, fmt::format("{}\n--strict: ", fmt::join(names, "\n")) +
                            counted(names.size(), "unknown name") +
-                           " in the scene, expected names of pbrt-v4");
+                           " in the scene, expected names that its format has");
 }
 
 /// Reads the state of an earlier run into film and estimators.
@@ -113,11 +114,12 @@ LoadedScene load_small_scene(const RenderRequest& request, int longest_side) {
 
 IntegratorChoice choose_integrator(const RenderRequest& request, const Scene& scene) {
   return choose_integrator(request.routes.integrator_or(kDefaultIntegrator), scene.integrator,
-                           scene.integrator_parameters, request.settings);
+                           scene.integrator_parameters, request.settings,
+                           is_pbrt_scene(request.scene));
 }
 
 Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWarnings warnings)
-    : scene_(*loaded.scene), warnings_(std::move(warnings)) {
+    : scene_(*loaded.scene), notes_of_scene_(loaded.notes), warnings_(std::move(warnings)) {
   const Scene& scene = scene_;
   choice_ = choose_integrator(request, scene);
   warn_of(loaded.warnings, warnings_.input);
@@ -191,7 +193,8 @@ RenderResult Render::run(SignalFlags& signals) {
 }
 
 std::vector<std::string> Render::notes() const {
-  std::vector<std::string> notes = set_.notes;
+  std::vector<std::string> notes = notes_of_scene_;
+  notes.insert(notes.end(), set_.notes.begin(), set_.notes.end());
   notes.insert(notes.end(), choice_.notes.begin(), choice_.notes.end());
   return notes;
 }

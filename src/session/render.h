@@ -87,11 +87,13 @@ class Render {
   const EstimatorSet& estimators() const { return set_; }
   const Film& film() const { return *film_; }
   const RenderIdentity& identity() const { return identity_; }
-  /// Notes for the report: routes that stay black, parameters of the scene that are not used.
+  /// Notes for the report: choices for the scene, routes that stay black, parameters of the scene
+  /// that are not used.
   std::vector<std::string> notes() const;
 
  private:
   const Scene& scene_;
+  std::vector<std::string> notes_of_scene_;
   RenderWarnings warnings_;
   uint64_t seed_ = 0;
   bool has_resumed_ = false;

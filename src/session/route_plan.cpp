@@ -60,6 +60,8 @@ RoutePlan plan_of(const RouteChoice& choice, const std::string& integrator) {
   else
     plan = plan_of_integrator(integrator);
   plan.aovs = choice.aovs;
+  plan.has_own_routes = !choice.routes.empty() ||
+                        (!choice.preset_or_file.empty() && !route_preset(choice.preset_or_file));
   plan.strict = choice.strict;
   return plan;
 }

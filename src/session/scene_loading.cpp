@@ -20,6 +20,8 @@ LoadedScene build(SceneDescription description, const SceneOverrides& overrides,
     loaded.warnings.push_back(located(warning.where, warning.message));
     if (warning.is_unknown_name) loaded.unknown_names.push_back(loaded.warnings.back());
   }
+  for (const Warning& note : diagnostics.notes())
+    loaded.notes.push_back(located(note.where, note.message));
   return loaded;
 }
 

@@ -1,4 +1,4 @@
-// Loads a scene from its file, with its warnings.
+// Loads a scene from its file, with its warnings and notes.
 #pragma once
 
 #include <memory>
@@ -14,6 +14,7 @@ struct LoadedScene {
   SceneDescription description;
   std::unique_ptr<Scene> scene;
   std::vector<std::string> warnings;       ///< "file:line:column: message"
+  std::vector<std::string> notes;          ///< what is normal, in the same form
   std::vector<std::string> unknown_names;  ///< warnings about names that the format lacks
 };
 

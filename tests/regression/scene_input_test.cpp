@@ -8,7 +8,9 @@
 #include <thread>
 
 #include "film/image_io.h"
+#include "regression/piped_program.h"
 #include "regression/scene_folder.h"
+#include "unit/input/gltf_text.h"
 
 namespace nephroid::testing_support {
 namespace {
@@ -52,6 +54,50 @@ TEST(SceneInput, UnknownNamesAreWarningsAndErrorsUnderStrict) {
       "\"reflectance\"?";
   folder.expect_error(kScene, message, {"--strict", "--quiet"});
   folder.expect_picture({message});
+}
+
+TEST(SceneInput, ClassesOfMaterialsAreListedAndWhatIsNormalIsNoWarning) {
+  testing::TriangleScene scene;
+  scene.primitive_members = ",\"material\":0";
+  SceneFolder folder;
+  folder.write("pane.gltf",
+               scene.file.text(scene.members(
+                   R"(,"materials":[{"name":"pane","pbrMetallicRoughness":{"metallicFactor":0},)"
+                   R"("emissiveFactor":[1,1,1],"extensions":{"KHR_materials_emissive_strength":)"
+                   R"({"emissiveStrength":9}}}],"extensionsUsed":)"
+                   R"(["KHR_materials_emissive_strength"])")));
+  PipedProgram info(folder.path("."), {"info", "pane.gltf"});
+  const std::string output = info.read(1 << 16);
+  EXPECT_NE(output.find("\nlabels of materials: pane [DG]\n"), std::string::npos) << output;
+  EXPECT_NE(output.find("\nwarnings: 0\n"), std::string::npos) << output;
+  const ProgramRun run = run_program(folder.path("."), {"info", "pane.gltf"});
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_EQ(run.errors.find("warning"), std::string::npos) << run.errors;
+  EXPECT_NE(run.errors.find("note: pane.gltf: the file has no camera"), std::string::npos);
+  EXPECT_NE(run.errors.find("note: pane.gltf: the exposure is chosen"), std::string::npos);
+}
+
+TEST(SceneInput, PicturesOfTwoFilesDoNotMeet) {
+  SceneFolder folder;
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  folder.write("vase.obj", obj);
+  const ProgramRun run =
+      run_program(folder.path("."), {"render", "vase.obj", "--passes", "1", "--resolution", "8x8"});
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_TRUE(std::filesystem::exists(folder.path("vase.exr")));
+  EXPECT_EQ(run.errors.find("maxdepth"), std::string::npos) << run.errors;
+  EXPECT_EQ(run.errors.find("can belong to it"), std::string::npos) << run.errors;
+  PipedProgram convert(folder.path("."), {"convert", "vase.obj", "vase.pbrt"});
+  EXPECT_EQ(convert.read(1 << 16), "wrote vase.pbrt\n");
+  std::ifstream converted(folder.path("vase.pbrt"));
+  const std::string text{std::istreambuf_iterator<char>(converted), {}};
+  EXPECT_NE(text.find("\"string filename\" \"vase.exr\""), std::string::npos) << text;
+  const ProgramRun own = run_program(
+      folder.path("."), {"render", "vase.obj", "--passes", "1", "--resolution", "8x8", "--route",
+                         "card=C<L.'card'>:path", "--route", "rest=.*:path"});
+  EXPECT_NE(own.errors.find("'card' is black: no path in this scene can belong to it"),
+            std::string::npos)
+      << own.errors;
 }
 
 TEST(SceneInput, ForeignFilesAreCalledByTheirName) {

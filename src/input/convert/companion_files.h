@@ -21,6 +21,9 @@ class CompanionFiles {
   /// written. Throws IoError.
   std::string name_of(const std::string& old_name);
 
+  /// Number of files that were written.
+  int count() const { return count_; }
+
  private:
   std::string new_name(const std::string& suffix);
   void write(const std::string& name, const std::string& bytes) const;

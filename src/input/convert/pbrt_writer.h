@@ -10,11 +10,10 @@ namespace nephroid {
 
 /// Writes the scene to `path`. Reading it gives a description of the same scene:
 /// - materials without a name get the one by which light path expressions know them;
-/// - triangle meshes of more than a few faces become PLY files beside the scene, and so do images
-/// in
-///   memory;
+/// - triangle meshes of more than a few faces and images in memory become files beside the scene;
 /// - names of other files are relative to the new scene.
-/// Comments say what of the scene is not pbrt-v4's. Throws IoError if a file cannot be written.
-void write_pbrt(const SceneDescription& scene, const std::string& path);
+/// Comments say what of the scene is not pbrt-v4's. Returns the number of files beside the scene.
+/// Throws IoError if a file cannot be written.
+int write_pbrt(const SceneDescription& scene, const std::string& path);
 
 }  // namespace nephroid

@@ -19,6 +19,7 @@ uint32_t word_at(std::string_view bytes, size_t at) {
 }  // namespace
 
 Container read_container(std::string_view bytes, const SourceLocation& file) {
+  if (bytes.empty()) throw SceneError(file, "the file is empty, expected a glTF scene");
   if (!bytes.starts_with("glTF")) return {bytes, {}};
   if (bytes.size() < kHeader)
     throw SceneError(file, "the GLB header is cut off, expected 12 bytes");

@@ -33,7 +33,8 @@ constexpr int kMaxDepth = 200;
 }  // namespace
 
 SourceLocation JsonValue::where() const {
-  return {std::make_shared<const std::string>(*file_ + "#" + pointer_), 0, 0};
+  return {std::make_shared<const std::string>(pointer_.empty() ? *file_ : *file_ + "#" + pointer_),
+          0, 0};
 }
 
 void JsonValue::fail(const std::string& message) const {

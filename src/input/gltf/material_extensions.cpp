@@ -76,9 +76,10 @@ void add_transmission(SurfaceInputs& inputs) {
   inputs.add("transmission_color", inputs.base);
   if (!add_volume(inputs)) {
     inputs.list.add_bool("geometry_thin_walled", true);
-    inputs.warn(transmission->where(),
-                "transmission without KHR_materials_volume is thin by the specification, so this "
-                "glass casts no caustic (--solid-glass makes it solid)");
+    inputs.warn(
+        transmission->where(),
+        "transmission without KHR_materials_volume is thin by the specification, so this "
+        "glass bends no light and casts no caustic of its own (--solid-glass makes it solid)");
     return;
   }
   if (const auto dispersion = inputs.extension("KHR_materials_dispersion")) {

@@ -96,6 +96,8 @@ std::string Textures::image_file(size_t index, const JsonValue& wanted_by) {
     if (uri) {
       bytes = document_.bytes_of_uri(*uri);
     } else {
+      if (!image.find("bufferView"))
+        image.fail("the image has neither \"uri\" nor \"bufferView\", expected one of them");
       const Bytes view = document_.buffer_view(image.get_index("bufferView"), image);
       bytes.assign(reinterpret_cast<const char*>(view.data()), view.size());
     }

@@ -71,6 +71,10 @@ void write_environment(PluginProperties& p, LightDescription& light) {
   light.transform = {frame * world.start, frame * world.end};
 }
 
+void add_name(const std::string& name, ParameterSet& light) {
+  if (!name.empty()) add_text(light, "name", name);
+}
+
 struct EmitterRow : Plugin {
   void (*write)(PluginProperties& properties, LightDescription& light) = nullptr;
 };
@@ -108,11 +112,13 @@ void write_emitter(ImportContext& context, const Object& object) {
   LightDescription light = directive<LightDescription>("", object.where);
   row.write(p, light);
   if (const Object* medium = p.first_child("medium")) light.medium = write_medium(context, *medium);
+  if (light.parameters.peek("name") == nullptr) add_name(object.id, light.parameters);
   p.report_unused();
   context.scene.lights.push_back(std::move(light));
 }
 
-DirectiveDescription area_light(ImportContext& context, const Object& object) {
+DirectiveDescription area_light(ImportContext& context, const Object& object,
+                                const std::string& name_of_shape) {
   plugin_row(kEmitters, object, context.diagnostics);
   if (object.type != "area")
     throw SceneError(object.where,
@@ -123,6 +129,7 @@ DirectiveDescription area_light(ImportContext& context, const Object& object) {
     add_text(light.parameters, "filename", bitmap_file(context, *texture));
   else
     add_emission(light.parameters, "L", read_color(p, "radiance", ColorUse::kEmission));
+  add_name(object.id.empty() ? name_of_shape : object.id, light.parameters);
   p.report_unused();
   return light;
 }

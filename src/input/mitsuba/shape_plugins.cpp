@@ -83,7 +83,7 @@ Attachments attachments(PluginProperties& p, const Geometry& geometry) {
   const std::vector<const Child*> bsdfs = own_bsdfs(p, geometry), emitters = p.children("emitter");
   if (bsdfs.size() > 1) warn_approximated(p, "it has several BSDFs, the first one is used");
   if (emitters.size() > 1) warn_approximated(p, "it has several emitters, the first one is used");
-  if (!emitters.empty()) a.light = area_light(p.context(), *emitters[0]->object);
+  if (!emitters.empty()) a.light = area_light(p.context(), *emitters[0]->object, p.object().id);
   if (const Object* medium = p.child("medium", "interior"))
     a.inside = write_medium(p.context(), *medium);
   if (const Object* medium = p.child("medium", "exterior"))

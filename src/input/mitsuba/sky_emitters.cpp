@@ -122,6 +122,13 @@ std::vector<Rgb> sky_pixels(const Daylight& d, const Vec3d& albedo, bool extends
   return pixels;
 }
 
+/// The name of sun or sky as a lamp: the emitter's id, where that is not both.
+std::string name_of(PluginProperties& p, const std::string& part) {
+  const std::string& id = p.object().id;
+  if (id.empty()) return part;
+  return p.object().type == "sunsky" ? id + "-" + part : id;
+}
+
 void set_sky(PluginProperties& p, const Daylight& d, double scale, double default_albedo,
              LightDescription& light) {
   const Vec3d albedo = read_rgb(p, "albedo").value_or(Vec3d(default_albedo));
@@ -132,6 +139,7 @@ void set_sky(PluginProperties& p, const Daylight& d, double scale, double defaul
   p.context().scene.files->add_in_memory(
       name, pfm_image(sky_pixels(d, albedo, p.boolean("extend", false)), kWidth, kHeight));
   light.type = "infinite";
+  add_text(light.parameters, "name", name_of(p, "sky"));
   add_text(light.parameters, "filename", name);
   if (scale != 1) add_float(light.parameters, "scale", scale);
   const Mat44d to_world = environment_frame() * d.to_world;
@@ -143,6 +151,7 @@ void set_sun(PluginProperties& p, const Daylight& d, double scale, LightDescript
   const Rgb irradiance =
       sun_radiance(d.sun.zenith, d.turbidity) * static_cast<float>(scale * solid_angle);
   light.type = "distant";
+  add_text(light.parameters, "name", name_of(p, "sun"));
   add_rgb(light.parameters, "L", {irradiance.r, irradiance.g, irradiance.b});
   const Vec3d to_sun = direction_of(d.sun.zenith * d.stretch, d.sun.azimuth);
   add_numbers(light.parameters, "point3", "from", {to_sun.x, to_sun.y, to_sun.z});

@@ -9,6 +9,7 @@ XmlText::XmlText(std::string text, const std::string& name)
     : text_(std::move(text)), file_(std::make_shared<const std::string>(name)), line_starts_{0} {
   for (size_t i = 0; i < text_.size(); ++i)
     if (text_[i] == '\n') line_starts_.push_back(i + 1);
+  if (text_.empty()) throw SceneError({file_, 0, 0}, "the file is empty, expected XML elements");
   const pugi::xml_parse_result result =
       document_.load_buffer(text_.data(), text_.size(), pugi::parse_default);
   if (!result)

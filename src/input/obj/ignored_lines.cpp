@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "input/spelling.h"
+
 namespace nephroid {
 namespace {
 
@@ -78,6 +80,8 @@ void IgnoredLines::add(const std::string& keyword, int line) {
 }
 
 void IgnoredLines::report() const {
+  std::vector<std::string> names;
+  for (const FormatParameter& row : rows_) names.emplace_back(row.name);
   for (const auto& entry : lines_) {
     const std::string& keyword = entry.first;
     const Lines& lines = entry.second;
@@ -93,7 +97,8 @@ void IgnoredLines::report() const {
     if (known != rows_.end())
       diagnostics_.warn(where, subject + ": " + known->note);
     else
-      diagnostics_.warn_of_unknown_name(where, subject + ": the format has no such keyword");
+      diagnostics_.warn_of_unknown_name(
+          where, subject + ": the format has no such keyword" + did_you_mean(keyword, names));
   }
 }
 

@@ -57,7 +57,7 @@ class MtlReader {
 
   void read_line(std::string_view text);
   void begin_material(const std::string& name);
-  double read_number(std::string_view word) const;
+  double read_number(const std::string& keyword, std::string_view word) const;
   void read_color(const std::string& name, std::string_view text);
   void read_value(const std::string& name, std::string_view text);
   void read_map(const std::string& name, std::string_view text);
@@ -99,7 +99,8 @@ void MtlReader::begin_material(const std::string& name) {
   current_ = &entry->second;
 }
 
-double MtlReader::read_number(std::string_view word) const {
+double MtlReader::read_number(const std::string& keyword, std::string_view word) const {
+  if (word.empty()) fail("\"" + keyword + "\" has no number, expected one");
   const std::optional<double> value = parse_number(word);
   if (!value || !std::isfinite(static_cast<float>(*value)))
     fail("\"" + std::string(word) + "\" is not a number, expected a finite one");
@@ -112,11 +113,12 @@ void MtlReader::read_color(const std::string& name, std::string_view text) {
   if (word == "spectral" || word == "xyz")
     return warn("\"" + name + " " + std::string(word) + "\" is ignored, expected three numbers");
   MtlMaterial::Color color{};
-  color.fill(std::max(0.0, read_number(word)));
+  color.fill(std::max(0.0, read_number(name, word)));
   for (size_t i = 1; i < color.size(); ++i) {
     word = take_word(&text);
     if (word.empty() && i == 1) break;
-    color[i] = std::max(0.0, read_number(word));
+    if (word.empty()) fail("\"" + name + "\" has 2 numbers, expected 3 or 1");
+    color[i] = std::max(0.0, read_number(name, word));
   }
   current_->colors[name] = color;
 }
@@ -127,7 +129,7 @@ void MtlReader::read_value(const std::string& name, std::string_view text) {
     warn("\"-halo\" of d is ignored: opacity does not depend on the direction");
     word = take_word(&text);
   }
-  const double value = read_number(word);
+  const double value = read_number(name, word);
   if (name == "Tr")
     current_->numbers["d"] = 1 - value;
   else

@@ -203,6 +203,7 @@ std::optional<DirectiveDescription> Converter::area_light() const {
     list.add_color("L", ke);
   }
   list.add_bool("twosided", true);
+  if (!mtl_.name.empty()) list.add_string("name", mtl_.name);
   return std::move(list).directive("diffuse");
 }
 

@@ -51,14 +51,15 @@ void choose_exposure(SceneDescription* scene, Diagnostics& diagnostics) {
       std::clamp(std::log2(kIlluminanceOfOne / (illuminance * exposure_time(*scene))), -kMostStops,
                  kMostStops);
   set_iso(scene, 100 * std::exp2(stops), "chosen exposure");
-  diagnostics.warn({std::make_shared<const std::string>(scene->file), 0, 0},
+  diagnostics.note({std::make_shared<const std::string>(scene->file), 0, 0},
                    fmt::format("the exposure is chosen for the file's lights: {:.1f} stops "
                                "(--exposure gives another, 0 keeps the file's units)",
                                stops));
 }
 
-/// Names the picture after the scene's file.
+/// Names the picture after the scene's file, unless the file names it.
 void name_picture(SceneDescription* scene) {
+  if (film_parameters(scene).peek("filename") != nullptr) return;
   std::filesystem::path name = std::filesystem::path(scene->file).filename();
   if (name.extension() == ".gz") name = name.stem();
   ParameterList list(not_in_a_file("default film"));
@@ -110,10 +111,10 @@ void stage_scene(SceneDescription* scene, const FormatTraits& format, const Impo
   const SourceLocation whole_file{std::make_shared<const std::string>(scene->file), 0, 0};
   const FramedView view(surroundings_of(*scene));
   LazyExtent extent(*scene, view.sides());
-  if (!format.is_complete && !scene->film) name_picture(scene);
+  if (!format.is_complete) name_picture(scene);
   if (!format.is_complete && !scene->camera) {
     scene->camera = view.camera(extent.get("the default view is framed around them"));
-    diagnostics.warn(whole_file, "the file has no camera: the view is from the front right");
+    diagnostics.note(whole_file, "the file has no camera: the view is from the front right");
   }
   const Surroundings surroundings = surroundings_of(*scene);
   const bool has_own_light = has_light(*scene, format.glow);
@@ -125,7 +126,7 @@ void stage_scene(SceneDescription* scene, const FormatTraits& format, const Impo
   add_wanted_lights(scene, format.glow, options, surroundings);
   if (!format.is_complete && !is_lit) {
     add_studio_light(scene, bounds, surroundings);
-    diagnostics.warn(whole_file,
+    diagnostics.note(whole_file,
                      "the file has no light: a grey sky and a soft lamp light it (--sun and "
                      "--environment give other light)");
   }

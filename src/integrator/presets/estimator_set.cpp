@@ -81,8 +81,8 @@ EstimatorSet make_estimators(CompiledPlan compiled, const IntegratorOptions& opt
   const std::vector<std::string>& examples = compiled.compilation.examples;
   for (size_t r = 0; r < examples.size(); ++r) {
     const RouteDefinition& route = compiled.compilation.routes.definitions()[r];
-    // Estimators that merge report this themselves.
-    if (examples[r].empty() && !route.estimator->merges)
+    // Estimators that merge report this themselves. A preset has routes for any scene.
+    if (compiled.has_own_routes && examples[r].empty() && !route.estimator->merges)
       set.notes.push_back("'" + route.name + "' is black: no path in this scene can belong to it");
   }
   const std::vector<bool> part_matches = compiled.compilation.part_matches;

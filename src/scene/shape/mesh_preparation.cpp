@@ -115,6 +115,14 @@ size_t filter_faces(std::vector<uint32_t>& indices, size_t corners, std::vector<
   return count - kept;
 }
 
+void warn_or_note(bool is_note, const SourceLocation& where, const std::string& message,
+                  Diagnostics& diagnostics) {
+  if (is_note)
+    diagnostics.note(where, message);
+  else
+    diagnostics.warn(where, message);
+}
+
 }  // namespace
 
 void validate_mesh(MeshData& mesh, const SourceLocation& where, const std::string& what,
@@ -131,13 +139,15 @@ void validate_mesh(MeshData& mesh, const SourceLocation& where, const std::strin
                has_area(p[v[0]], p[v[2]], p[v[3]]) || has_area(p[v[1]], p[v[2]], p[v[3]]);
       });
   if (lost == 0) return;
+  constexpr size_t kFewFaces = 10;  ///< one of so many faces
   if (lost == faces)
     diagnostics.warn(where, what + " has no area and will be invisible: it has only " +
                                 counted(faces, "degenerate face"));
-  else
-    diagnostics.warn(
-        where, what + ": " + std::to_string(lost) + " of " + std::to_string(faces) + " faces " +
-                   in_number(lost, "has no area and was", "have no area and were") + " removed");
+  else  // the poles of a lathed mesh have some; many are a fault of the exporter
+    warn_or_note(lost <= faces / kFewFaces, where,
+                 what + ": " + std::to_string(lost) + " of " + std::to_string(faces) + " faces " +
+                     in_number(lost, "has no area and was", "have no area and were") + " removed",
+                 diagnostics);
 }
 
 void zero_bad_normals(MeshData& mesh, const SourceLocation& where, const std::string& what,

@@ -21,11 +21,6 @@ void take_scene_parameters(const ParameterSet& parameters, bool follow_scene,
   if (depth != nullptr && max_depth < 0)
     throw SceneError(depth->where,
                      fmt::format("\"maxdepth\" is {}, expected at least 0", max_depth));
-  if (depth == nullptr && !depth_is_given)
-    choice->notes.push_back(
-        fmt::format("the scene gives no maxdepth: paths have up to {} scattering events; "
-                    "pbrt-v4 would stop at 5, too few for glass (-D max-depth=5 to compare)",
-                    options.max_depth));
   if (depth != nullptr && !depth_is_given) options.max_depth = max_depth;
   if (parameters.find("radius") != nullptr)
     choice->notes.push_back(
@@ -92,12 +87,19 @@ void warn_of_unknown_names(const std::string& scene_integrator, const ParameterS
 
 IntegratorChoice choose_integrator(const std::string& wanted, const std::string& scene_integrator,
                                    const ParameterSet& scene_parameters,
-                                   const RenderSettings& settings) {
+                                   const RenderSettings& settings, bool is_pbrt) {
   IntegratorChoice choice;
   const bool follow_scene = wanted == "scene";
   choice.name =
       follow_scene ? integrator_of_scene(scene_integrator, scene_parameters.where) : wanted;
   choice.settings = settings;
+  const bool gives_depth =
+      scene_parameters.peek("maxdepth") != nullptr || settings.gives("max-depth");
+  if (is_pbrt && !scene_integrator.empty() && !gives_depth)
+    choice.notes.push_back(fmt::format(
+        "the scene's Integrator gives no maxdepth: paths have up to {} scattering "
+        "events; pbrt-v4 would stop at 5, too few for glass (-D max-depth=5 to compare)",
+        settings.integrator.max_depth));
   take_scene_parameters(scene_parameters, follow_scene, &choice);
   warn_of_unknown_names(scene_integrator, scene_parameters, &choice);
   return choice;

@@ -24,9 +24,10 @@ struct IntegratorChoice {
 
 /// `wanted` is an integrator's name, or "scene" for the one that corresponds to the scene's own.
 /// With "scene", throws UsageError if none corresponds, SceneError if the scene's is unknown.
-/// Throws SceneError for a parameter of the wrong type or range.
+/// Throws SceneError for a parameter of the wrong type or range. Notes about pbrt-v4 are only for
+/// its own scenes.
 IntegratorChoice choose_integrator(const std::string& wanted, const std::string& scene_integrator,
                                    const ParameterSet& scene_parameters,
-                                   const RenderSettings& settings);
+                                   const RenderSettings& settings, bool is_pbrt = true);
 
 }  // namespace nephroid

@@ -109,7 +109,7 @@ TEST(TypicalIlluminance, CountsInstances) {
 
 struct Staged {
   double iso;
-  std::vector<Warning> warnings;
+  std::vector<Warning> notes;
 };
 
 Staged staged(const std::string& text, const FormatTraits& format = {},
@@ -117,7 +117,8 @@ Staged staged(const std::string& text, const FormatTraits& format = {},
   SceneDescription scene = parse("Camera \"perspective\"\n" + kPlate + text);
   Diagnostics diagnostics;
   stage_scene(&scene, format, options, diagnostics);
-  return {scene.film ? scene.film->parameters.get_float("iso", 100) : 100, diagnostics.warnings()};
+  EXPECT_TRUE(diagnostics.warnings().empty());
+  return {scene.film ? scene.film->parameters.get_float("iso", 100) : 100, diagnostics.notes()};
 }
 
 const std::string kSunlight = "LightSource \"distant\" \"rgb L\" [50000 50000 50000]\n";
@@ -125,8 +126,8 @@ const std::string kSunlight = "LightSource \"distant\" \"rgb L\" [50000 50000 50
 TEST(ChosenExposure, GivesAWhiteSurfaceTheValueOne) {
   const Staged chosen = staged(kSunlight);
   EXPECT_NEAR(chosen.iso / 100 * 50000 / kPiDouble, 1, 1e-5);
-  ASSERT_EQ(chosen.warnings.size(), 1u);
-  EXPECT_EQ(chosen.warnings[0].message,
+  ASSERT_EQ(chosen.notes.size(), 1u);
+  EXPECT_EQ(chosen.notes[0].message,
             "the exposure is chosen for the file's lights: -14.0 stops (--exposure gives another, "
             "0 keeps the file's units)");
 }
@@ -143,7 +144,7 @@ TEST(ChosenExposure, YieldsToTheUserTheSunAndTheFilesOwn) {
   EXPECT_EQ(staged(lamp, {}, sun).iso, staged("", {}, sun).iso);
   const Staged own = staged(kSunlight, {.has_exposure = true});
   EXPECT_EQ(own.iso, 100);
-  EXPECT_TRUE(own.warnings.empty());
+  EXPECT_TRUE(own.notes.empty());
 }
 
 TEST(ChosenExposure, LeavesTheStudioLightAlone) {
@@ -151,15 +152,15 @@ TEST(ChosenExposure, LeavesTheStudioLightAlone) {
 }
 
 TEST(ChosenExposure, IsNotForDisplaysThatGlow) {
-  const auto warning = [](const std::string& emission) {
+  const auto note = [](const std::string& emission) {
     const Staged s =
         staged("Translate 0 9 0 AreaLightSource \"diffuse\" " + emission + kCube, {.glow = 1});
-    EXPECT_EQ(s.warnings.size(), 1u);
-    return s.warnings.at(0).message.substr(0, 25);
+    EXPECT_EQ(s.notes.size(), 1u);
+    return s.notes.at(0).message.substr(0, 25);
   };
-  EXPECT_EQ(warning("\"rgb L\" [0.2 1 0.2] "), "the file has no light: a ");
-  EXPECT_EQ(warning("\"rgb L\" [0.2 1.1 0.2] "), "the exposure is chosen fo");
-  EXPECT_EQ(warning("\"string filename\" \"a.png\" \"rgb factor\" [1 1 1] "),
+  EXPECT_EQ(note("\"rgb L\" [0.2 1 0.2] "), "the file has no light: a ");
+  EXPECT_EQ(note("\"rgb L\" [0.2 1.1 0.2] "), "the exposure is chosen fo");
+  EXPECT_EQ(note("\"string filename\" \"a.png\" \"rgb factor\" [1 1 1] "),
             "the file has no light: a ");
 }
 

@@ -116,9 +116,10 @@ TEST(GltfFile, SyntaxErrorsHaveTheirLine) {
   EXPECT_EQ(
       gltf_error("{\n  \"asset\": {},\n  oops\n}"),
       "scene.gltf:3:3: the text is not JSON from here on, expected the JSON text of a glTF file");
+  EXPECT_EQ(gltf_error(""), "scene.gltf: the file is empty, expected a glTF scene");
   EXPECT_EQ(gltf_error("[]"),
             "scene.gltf:1:1: the JSON text is not an object, expected a glTF file");
-  EXPECT_EQ(gltf_error("{}"), "scene.gltf#: \"asset\" is missing");
+  EXPECT_EQ(gltf_error("{}"), "scene.gltf: \"asset\" is missing");
   EXPECT_EQ(gltf_error(R"({"asset":{"version":"1.0"}})"),
             "scene.gltf#/asset/version: this is glTF 1.0, expected version 2.0");
   EXPECT_NE(gltf_error(std::string(100000, '[')).find("nested more than"), std::string::npos);

@@ -280,7 +280,7 @@ TEST(GltfMaterials, VariantsReplaceMaterials) {
   ImportOptions options;
   options.variant = "dusk";
   EXPECT_EQ(gltf_error(text, options),
-            "scene.gltf#: there is no material variant \"dusk\", expected one of \"day\", "
+            "scene.gltf: there is no material variant \"dusk\", expected one of \"day\", "
             "\"night\"");
 }
 

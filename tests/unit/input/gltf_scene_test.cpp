@@ -239,7 +239,7 @@ TEST(GltfCameras, TheChosenOneByNameOrIndex) {
   ImportOptions options;
   options.camera = "side";
   EXPECT_EQ(gltf_error(file, options),
-            "scene.gltf#: there is no camera \"side\", expected one of \"front\", \"top\" or an "
+            "scene.gltf: there is no camera \"side\", expected one of \"front\", \"top\" or an "
             "index below 2");
   options.camera = "1";
   EXPECT_EQ(numbers_of(read_gltf_text(file, options).scene.camera->parameters, "screenwindow"),

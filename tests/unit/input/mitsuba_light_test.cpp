@@ -145,6 +145,23 @@ TEST(MitsubaLight, AreaLightsBelongToShapes) {
             std::string::npos);
 }
 
+/// The name of the lamp of the first shape.
+std::string name_of_lamp(const std::string& id_of_shape, const std::string& id_of_emitter) {
+  MitsubaScene scene;
+  const SceneDescription d = scene.read("<shape type=\"sphere\"" + id_of_shape +
+                                        "><emitter type=\"area\"" + id_of_emitter + "/></shape>\n");
+  return d.shapes.at(0).area_light->parameters.get_string("name", "");
+}
+
+TEST(MitsubaLight, LampsHaveTheIdOfTheEmitterOrOfTheShape) {
+  EXPECT_EQ(name_of_lamp("", ""), "");
+  EXPECT_EQ(name_of_lamp(" id=\"bulb\"", ""), "bulb");
+  EXPECT_EQ(name_of_lamp(" id=\"bulb\"", " id=\"glow\""), "glow");
+  MitsubaScene scene;
+  const SceneDescription d = scene.read("<emitter type=\"point\" id=\"key\"/>\n");
+  EXPECT_EQ(d.lights.at(0).parameters.get_string("name", ""), "key");
+}
+
 Vec3d in_world(const LightDescription& l, const Vec3d& local) {
   Vec3d world;
   l.transform.start.multDirMatrix(local, world);
@@ -214,6 +231,8 @@ TEST(MitsubaSky, SunAndSkyAreTwoLights) {
                     value("float", "skyScale", "3")));
   ASSERT_EQ(d.lights.size(), 2u);
   EXPECT_EQ(d.lights[0].type, "distant");
+  EXPECT_EQ(d.lights[0].parameters.get_string("name", ""), "sun");
+  EXPECT_EQ(d.lights[1].parameters.get_string("name", ""), "sky");
   const Numbers from = parameter(d.lights[0].parameters, "from").numbers;
   EXPECT_NEAR(from[1], std::sqrt(0.5), 1e-9);
   EXPECT_NEAR(from[2], std::sqrt(0.5), 1e-9);

@@ -107,6 +107,7 @@ TEST_F(MtlTest, EmissionIsAnAreaLight) {
   ASSERT_TRUE(light);
   EXPECT_EQ(light->parameters.find("L")->numbers, (std::vector<double>{5, 4, 3}));
   EXPECT_TRUE(light->parameters.get_bool("twosided", false));
+  EXPECT_EQ(light->parameters.get_string("name", ""), "m") << "the name of the material";
   EXPECT_FALSE(read("Ke 0 0 0\n").shapes.at(0).area_light);
 }
 
@@ -198,12 +199,15 @@ TEST_F(MtlTest, WrongValuesAreErrorsAndUnknownKeywordsWarnings) {
     return message.substr(message.find("m.mtl"));
   };
   EXPECT_EQ(error("Kd 1 x 0\n"), "m.mtl:2: \"x\" is not a number, expected a finite one");
-  EXPECT_EQ(error("Kd\n"), "m.mtl:2: \"\" is not a number, expected a finite one");
+  EXPECT_EQ(error("Kd\n"), "m.mtl:2: \"Kd\" has no number, expected one");
+  EXPECT_EQ(error("Kd 1 0\n"), "m.mtl:2: \"Kd\" has 2 numbers, expected 3 or 1");
+  EXPECT_EQ(error("Ns\n"), "m.mtl:2: \"Ns\" has no number, expected one");
   EXPECT_EQ(error("Ns nan\n"), "m.mtl:2: \"nan\" is not a number, expected a finite one");
-  read("Kd 1\nKd spectral a.rfl\nmap_Kd\nfoo 1\nrefl a.png\nKa 1 1 1\n");
+  read("Kd 1\nKd spectral a.rfl\nmap_Kd\nfoo 1\nKdd 1\nrefl a.png\nKa 1 1 1\n");
   EXPECT_EQ(warnings(),
             "\"Kd spectral\" is ignored, expected three numbers\n"
             "\"map_Kd\" names no file and is ignored\n"
+            "\"Kdd\" is ignored: the format has no such keyword, did you mean \"Kd\"?\n"
             "\"foo\" is ignored: the format has no such keyword\n"
             "\"refl\" is ignored: reflections are rendered, not looked up\n");
 }

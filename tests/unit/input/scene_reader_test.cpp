@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "unit/input/gltf_text.h"
+#include "unit/input/parse_text.h"
 
 namespace nephroid {
 namespace {
@@ -36,6 +37,50 @@ TEST(SceneReader, OptionsOfOtherFormatsAreWarnings) {
   EXPECT_EQ(warnings_about("--define", "a.gltf", gltf, define), 1u);
   EXPECT_EQ(warnings_about("--define", "a.pbrt", pbrt, define), 1u);
   EXPECT_EQ(warnings_about("--define is ignored", "a.xml", mitsuba, define), 0u);
+}
+
+/// The name of the picture of a scene without a name of its own.
+std::string picture_of(const std::string& file, const std::string& contents) {
+  const testing::TemporaryDirectory folder;
+  Diagnostics diagnostics;
+  const SceneDescription scene = read_scene(folder.write(file, contents), {}, diagnostics);
+  return scene.film ? scene.film->parameters.get_string("filename", "") : "";
+}
+
+const std::string kObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+TEST(SceneReader, PicturesAreNamedAfterTheFileWithOrWithoutACamera) {
+  const testing::TriangleScene triangle;
+  testing::TriangleScene seen;
+  seen.node_members = ",\"camera\":0";
+  const std::string camera =
+      R"(,"cameras":[{"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"zfar":9,"znear":0}}])";
+  EXPECT_EQ(picture_of("vase.gltf", triangle.file.text(triangle.members())), "vase.exr");
+  EXPECT_EQ(picture_of("vase.gltf", seen.file.text(seen.members(camera))), "vase.exr");
+  EXPECT_EQ(picture_of("room.v2.obj", kObj), "room.v2.exr");
+  const std::string body = R"(<scene version="3.0.0"><shape type="sphere"/>)";
+  EXPECT_EQ(picture_of("ball.xml", body + "</scene>"), "ball.exr");
+  EXPECT_EQ(picture_of("ball.xml", body + R"(<sensor type="perspective"/></scene>)"), "ball.exr");
+  EXPECT_EQ(picture_of("a.pbrt", "WorldBegin\n"), "");
+}
+
+TEST(SceneReader, AllMissingImagesAreNamedAtOnce) {
+  const testing::TemporaryDirectory folder;
+  folder.write("m.mtl",
+               "newmtl a\nmap_Kd oak.png\nmap_Ks oak.png\nnewmtl b\nmap_Kd C:\\tile.png\n"
+               "norm bumps.png\nnewmtl unused\nmap_Kd other.png\n");
+  const auto error = [&](const std::string& faces) {
+    return testing::error_of([&] {
+      Diagnostics diagnostics;
+      read_scene(folder.write("room.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n" + faces), {},
+                 diagnostics);
+    });
+  };
+  const std::string mtl = folder.path("m.mtl");
+  EXPECT_EQ(error("usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n"),
+            mtl + ":2: 3 images are missing, expected files: \"oak.png\", \"C:/tile.png\" (" + mtl +
+                ":5), \"bumps.png\" (" + mtl + ":4)");
+  EXPECT_EQ(error("usemtl a\nf 1 2 3\n"), "no error") << "one is an error of its reader";
 }
 
 }  // namespace

@@ -120,6 +120,8 @@ TEST(CommandLine, Errors) {
       usage_error("paint s.pbrt"),
       "unknown command 'paint', expected one of: render, view, merge, mix, info, routes, compare, "
       "convert, bench");
+  EXPECT_EQ(usage_error("vase.glb"),
+            "'vase.glb' is no command, expected: nephroid render vase.glb");
   EXPECT_NE(usage_error("render").find("SCENE"), std::string::npos);
   EXPECT_NE(usage_error("render a.pbrt b.pbrt").find("b.pbrt"), std::string::npos);
   EXPECT_EQ(usage_error("render s.pbrt --resumes"),

@@ -12,6 +12,7 @@
 #include "integrator/photon_mapping/ppm.h"
 #include "integrator/presets/estimator_table.h"
 #include "route/compile.h"
+#include "scene/film_description.h"
 #include "unit/film/scratch_directory.h"
 
 namespace nephroid {
@@ -34,6 +35,8 @@ TEST(FilmOfScene, DefaultOutputIsHereAndExr) {
   film.filename = "";
   EXPECT_EQ(default_output(film, "scenes/x.pbrt"), "x.exr");
   EXPECT_EQ(default_output(film, "scenes/x.pbrt.gz"), "x.exr");
+  Diagnostics diagnostics;
+  EXPECT_EQ(make_film_description({}, {}, diagnostics).filename, "");
 }
 
 constexpr uint64_t kMemory = uint64_t{64} << 30;

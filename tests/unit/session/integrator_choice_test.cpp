@@ -59,6 +59,9 @@ TEST(IntegratorChoice, SceneWithoutDepthIsNoted) {
   EXPECT_TRUE(has_note(choose_integrator("mixed", "path", {}, {}), "maxdepth"));
   EXPECT_FALSE(has_note(
       choose_integrator("mixed", "path", {}, render_settings({{"max-depth", "5"}})), "maxdepth"));
+  EXPECT_FALSE(has_note(choose_integrator("mixed", "", {}, {}), "maxdepth"));
+  EXPECT_FALSE(has_note(choose_integrator("mixed", "path", {}, {}, false), "maxdepth"))
+      << "a scene of another program";
 }
 
 TEST(IntegratorChoice, SceneWithoutAnEquivalent) {

@@ -92,6 +92,24 @@ TEST(MeshPreparation, FacesWithoutAreaAreRemovedAndCounted) {
   EXPECT_TRUE(none.warnings().empty());
 }
 
+TEST(MeshPreparation, FewFacesWithoutAreaAreNormal) {
+  MeshData mesh = square_and_triangle();
+  mesh.quads.clear();
+  mesh.face_indices.clear();
+  mesh.triangles = {0, 1, 1};
+  for (int i = 0; i < 9; ++i) mesh.triangles.insert(mesh.triangles.end(), {0, 1, 2});
+  Diagnostics few;
+  validate_mesh(mesh, kWhere, "mesh", few);
+  EXPECT_TRUE(few.warnings().empty());
+  ASSERT_EQ(few.notes().size(), 1u);
+  EXPECT_EQ(few.notes()[0].message, "mesh: 1 of 10 faces has no area and was removed");
+  mesh.triangles.insert(mesh.triangles.end(), {0, 1, 1, 2, 2, 1});
+  Diagnostics many;
+  validate_mesh(mesh, kWhere, "mesh", many);
+  EXPECT_EQ(many.warnings().size(), 1u);
+  EXPECT_TRUE(many.notes().empty());
+}
+
 TEST(MeshPreparation, NormalsThatAreNotFiniteLeaveTheFacesTheirOwn) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   MeshData mesh = square_and_triangle();
