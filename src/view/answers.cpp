@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 constexpr int64_t kMaxUploadedValues = int64_t{1} << 28;  ///< pixels times channels
 constexpr size_t kMaxLayers = 64;
-constexpr double kLongestWaitForPicture = 1;  ///< seconds
+constexpr double kMaxWaitForPicture = 1;  ///< seconds
 constexpr const char *kBinary = "application/octet-stream", *kText = "text/plain; charset=utf-8";
 
 Answer json_answer(const Json& json) {
@@ -167,9 +167,13 @@ Answer Answers::frame(const Parameters& parameters, const std::string&) {
 
 Answer Answers::first_picture(const Parameters&, const std::string&) {
   using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration<double>(kLongestWaitForPicture);
+  const auto end = Clock::now() + std::chrono::duration<double>(kMaxWaitForPicture);
   auto picture = source_.picture();
-  for (uint64_t seen = 0; !picture && Clock::now() < end; picture = source_.picture())
+  const auto may_come = [this] {
+    const LiveStatus status = source_.state().status;
+    return status == LiveStatus::kLoading || status == LiveStatus::kRendering;
+  };
+  for (uint64_t seen = 0; !picture && may_come() && Clock::now() < end; picture = source_.picture())
     seen = source_.wait_for_news(
         seen, std::max(0.0, std::chrono::duration<double>(end - Clock::now()).count()));
   if (!picture) {

@@ -62,6 +62,9 @@ export class CompareMeasure {
       }
       this.#receive({ figures, bitmap }, wanted);
       bitmap?.close();
+    } catch (error) {
+      this.#measured = ''; // again after a while
+      throw error;
     } finally {
       const took = performance.now() - begin;
       this.#next = performance.now() + Math.max(kRenewMs, kIdlePerMeasure * took);

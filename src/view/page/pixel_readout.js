@@ -45,7 +45,9 @@ export class PixelReadout {
     const { x, y } = this.#pixel;
     const value = this.#stage.readPixel(x, y);
     if (!value) return false;
-    const { error, samples } = this.#probed;
+    // Error and samples of another render say nothing of this one.
+    const isOld = this.#probed.generation !== this.#stage.generation;
+    const { error, samples } = isOld ? {} : this.#probed;
     // The program knows the error of the picture, not that of a mix or of a view.
     const known = this.#stage.shownLayer === 'picture' ? error : null;
     this.#status.showPixel({ x, y, value, error: known, samples });
@@ -56,10 +58,11 @@ export class PixelReadout {
     if (this.#busy) return;
     this.#busy = true;
     const pixel = this.#pixel;
+    const { generation } = this.#stage;
     try {
       const probed = await this.#server.get(`api/probe?x=${pixel.x}&y=${pixel.y}`);
       if (pixel === this.#pixel) {
-        this.#probed = probed;
+        this.#probed = { ...probed, generation };
         this.#print();
       }
     } catch {

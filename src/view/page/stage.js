@@ -63,6 +63,9 @@ export class Stage extends EventTarget {
   /// Whether the picture on the screen is a coarse one of a moving camera.
   get isPreview() { return Boolean(this.renderer.header('current')?.preview); }
 
+  /// Of the picture on the screen; it changes when a render begins anew.
+  get generation() { return this.renderer.header('current')?.generation; }
+
   /// Linear value that is shown at a pixel of the full picture, or null.
   readPixel(x, y) {
     const header = this.renderer.header('current');

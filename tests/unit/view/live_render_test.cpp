@@ -217,6 +217,26 @@ TEST_F(Live, AMovedCameraIsAnEdit) {
   EXPECT_TRUE(is_edited);
 }
 
+TEST_F(Live, ACameraWithoutMovesSettles) {
+  LiveRender live(request());
+  ASSERT_TRUE(has_picture(live));
+  EXPECT_FALSE(live.settle_camera(0)) << "it does not move";
+  CameraChange change;
+  change.eye = Vec3d(1, 0, -4);
+  change.is_moving = true;
+  live.move_camera(change);
+  EXPECT_FALSE(live.settle_camera(3600));
+  EXPECT_TRUE(live.settle_camera(0));
+  EXPECT_TRUE(comes(live, [&](const LiveState&) {
+    try {
+      live.with_picture([](const RenderAtRest&) {});
+      return true;
+    } catch (const UsageError&) {
+      return false;
+    }
+  }));
+}
+
 TEST_F(Live, ErrorsOfQuestionsReachWhoAsks) {
   LiveRender live(request());
   ASSERT_TRUE(has_picture(live));

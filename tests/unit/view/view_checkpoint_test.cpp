@@ -123,6 +123,33 @@ TEST_F(Output, BeforeARestartIsKept) {
   EXPECT_TRUE(has("out.state"));
 }
 
+TEST_F(Output, BeforeTheViewStaysKept) {
+  write("out.exr", "mine");
+  LiveRender live(with_output(2));
+  ASSERT_TRUE(has_status(live, LiveStatus::kDone));
+  ViewCheckpoint checkpoint(exr_);
+  checkpoint.write(live);
+  for (int i = 1; i <= 2; ++i) {
+    move(live, i);
+    checkpoint.write(live);
+    EXPECT_EQ(content("out.previous.exr"), "mine");
+  }
+}
+
+TEST_F(Output, ThatCannotBeWrittenAtTheEndIsRescued) {
+  fs::create_symlink(file("nowhere/out.exr"), exr_);
+  RenderRequest wanted = with_output(2);
+  fs::create_directory(file("rescue"));
+  wanted.options.rescue_directory = file("rescue");
+  LiveRender live(wanted);
+  ASSERT_TRUE(has_status(live, LiveStatus::kDone));
+  EXPECT_THROW(ViewCheckpoint(exr_).write_last(live), IoError);
+  int rescued = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(file("rescue")))
+    rescued += entry.path().filename() == "out.exr";
+  EXPECT_EQ(rescued, 1);
+}
+
 TEST_F(Output, ThatCannotBeWrittenTwiceLeavesWhatWasKept) {
   // The state can be written, the picture not: its link leads nowhere.
   fs::create_symlink(file("nowhere/out.exr"), exr_);
