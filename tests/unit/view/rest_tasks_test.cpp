@@ -73,6 +73,39 @@ TEST_F(Tasks, WhoeverHasWaitedTooLongIsNotServedLater) {
 }
 
 TEST_F(Tasks, ATaskThatHasBegunIsWaitedFor) {
+  std::promise<void> begun, may_end;
+  bool has_ended = false;
+  const auto ticket = tasks_.add([&](const RenderAtRest&) {
+    begun.set_value();
+    may_end.get_future().wait();
+    has_ended = true;
+  });
+  std::thread renderer([&] { tasks_.serve(rest_); });
+  begun.get_future().wait();
+  std::thread releases([&] { may_end.set_value(); });
+  ticket->wait(0);
+  EXPECT_TRUE(has_ended);
+  releases.join();
+  renderer.join();
+}
+
+TEST_F(Tasks, ThoseAddedMeanwhileWaitForTheNextRest) {
+  int runs = 0;
+  std::shared_ptr<RestTasks::Ticket> next;
+  std::function<void(const RenderAtRest&)> again = [&](const RenderAtRest&) {
+    if (++runs < 100) next = tasks_.add(again);
+  };
+  next = tasks_.add(again);
+  tasks_.serve(rest_);
+  EXPECT_EQ(runs, 1) << "who asks again at once would keep the render from its work";
+  EXPECT_FALSE(tasks_.empty());
+}
+
+using LiveTasks = testing_support::LiveTest;
+
+TEST_F(LiveTasks, TheEndWaitsForATaskThatHasBegun) {
+  auto live = std::make_unique<LiveRender>(request());
+  ASSERT_TRUE(testing_support::has_picture(*live));
   std::promise<void> begun;
   std::atomic<bool> has_ended = false;
   std::thread first([&, view = live.get()] {
