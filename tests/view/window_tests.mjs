@@ -193,7 +193,7 @@ test('a file of the command line is compared at once', async () => {
   const other = await browser.open(1280, 800);
   await other.goto(new URL('/', await page.evaluate(() => location.href)).href);
   await other.waitFor(() => !document.querySelector('#split')?.hidden &&
-    /FLIP/.test(document.querySelector('#compare-figures').textContent));
+    /FLIP/.test(document.querySelector('#compare-figures')?.textContent));
   if (screenshots) await other.screenshot(screenshots('compare-at-once'));
   assert.equal(await other.evaluate(() => document.querySelector('#tag-left').textContent),
     'other.exr');
