@@ -33,8 +33,9 @@ namespace nephroid {
 namespace {
 
 constexpr std::chrono::milliseconds kPoll{50};
-constexpr double kSecondsToSettle = 1;  ///< of a camera without moves
-constexpr int kPollsPerLook = 20;       ///< between two looks at the scene's files
+/// A camera that has not moved for so long has come to rest.
+constexpr double kSecondsToSettle = 1;
+constexpr int kPollsPerLook = 20;  ///< between two looks at the scene's files
 /// A missing file is told before a browser opens; a large scene may take longer to read.
 constexpr std::chrono::milliseconds kFirstLook{20};
 
@@ -86,7 +87,7 @@ class Checkpoints {
     next_ = Clock::now() + std::max<Clock::duration>(kInterval, kIdlePerWrite * cost);
   }
 
-  /// What is rendered is dropped after it.
+  /// Reading the scene again drops the picture.
   void write_before_reload() {
     if (checkpoint_) write();
   }

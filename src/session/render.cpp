@@ -84,7 +84,7 @@ void refuse_unknown_names(const LoadedScene& loaded, const IntegratorChoice& cho
   if (names.empty()) return;
   throw SceneError({}, fmt::format("{}\n--strict: ", fmt::join(names, "\n")) +
                            counted(names.size(), "unknown name") +
-                           " in the scene, expected names that its format has");
+                           " in the scene, expected names of its format");
 }
 
 /// Reads the state of an earlier run into film and estimators.

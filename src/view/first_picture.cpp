@@ -8,7 +8,7 @@
 namespace nephroid {
 namespace {
 
-/// What the page shows where nothing is rendered.
+/// The page is as grey as this outside of the rendered part.
 constexpr uint8_t kOutside = 9;
 
 /// Pixels from `begin` to `end` of a picture's side that pixel `at` of the small one stands for.

@@ -1,4 +1,4 @@
-// What others ask of a live render while no pixel is rendered.
+// Answers of a live render: it pauses between two chunks of pixels to give them.
 #include <algorithm>
 
 #include "core/errors.h"

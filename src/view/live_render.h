@@ -72,7 +72,7 @@ class LiveRender final : public ViewSource {
     RenderRequest request;
     std::optional<CameraPose> camera;  ///< empty: the scene's own
     bool is_moving = false;
-    double moved_at = 0;     ///< of the last move, by steady_seconds()
+    double moved_at = 0;     ///< steady_seconds() at the last move
     bool is_edited = false;  ///< since the view began
     bool reloads = true;
     uint64_t generation = 1;

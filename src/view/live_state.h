@@ -41,7 +41,7 @@ struct LiveState {
   bool is_scene = true;  ///< false: a picture, nothing renders
   LiveStatus status = LiveStatus::kLoading;
   std::string message;                     ///< why it failed, or why it is done
-  ExitStatus failure = ExitStatus::kDone;  ///< of `nephroid render`, if it failed
+  ExitStatus failure = ExitStatus::kDone;  ///< why it failed, as an exit status
   std::vector<std::string> warnings, notes, report;
   uint64_t generation = 0;    ///< counts edits
   uint64_t version = 0;       ///< counts pictures

@@ -1,4 +1,4 @@
-// The picture and state that a view leaves in its output file. It must not know when.
+// Writes the picture and state of a view with -o. It must not know when.
 #pragma once
 
 #include <optional>
@@ -28,8 +28,8 @@ class ViewCheckpoint {
   void write(const RenderAtRest& rest, Save save);
 
   std::string output_;
-  std::optional<uint64_t> generation_;  ///< of the render that its files are of
-  bool is_edited_ = false;              ///< of the same
+  std::optional<uint64_t> generation_;  ///< last one that was written
+  bool is_edited_ = false;              ///< the last one that was written
   bool has_older_work_ = false;         ///< files from before the view
   bool keeps_older_work_ = false;       ///< they have another name
 };

@@ -88,7 +88,7 @@ TEST_F(RenderPage, StrictRefusesUnknownNamesBeforeItRenders) {
     EXPECT_EQ(std::string(error.what()),
               request_.scene +
                   ":4:45: unknown parameter \"unheardof\" of integrator \"volpath\", ignored\n"
-                  "--strict: 1 unknown name in the scene, expected names that its format has");
+                  "--strict: 1 unknown name in the scene, expected names of its format");
   }
   std::ofstream(request_.scene)
       << "Option \"sed\" 1\nWorldBegin\nLightSource \"infinite\" \"string image\" \"a\"\n"

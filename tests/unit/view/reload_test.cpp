@@ -18,11 +18,16 @@ using testing_support::kLiveScene;
 
 class Reload : public testing_support::LiveTest {
  protected:
-  /// What the program does every second.
+  /// As the program does once a second.
   static bool reload_if_changed(LiveRender& live) {
     const bool changed = have_changed(live.files());
     if (changed) live.reload();
     return changed;
+  }
+  static void move_camera(LiveRender& live) {
+    CameraChange change;
+    change.eye = Vec3d(1, 0, -4);
+    live.move_camera(change);
   }
   static std::string including(const std::string& name) {
     return kLiveScene + ("Include \"" + name + "\"\n");
@@ -105,9 +110,7 @@ TEST_F(Reload, ASceneFromAPipeIsNotReadAgain) {
 TEST_F(Reload, AnEditedCameraStays) {
   LiveRender live(request());
   ASSERT_TRUE(has_picture(live));
-  CameraChange change;
-  change.eye = Vec3d(1, 0, -4);
-  live.move_camera(change);
+  move_camera(live);
   live.reload();
   ASSERT_TRUE(has_status(live, LiveStatus::kRendering));
   EXPECT_EQ(live.state().camera.eye, Vec3d(1, 0, -4));
@@ -116,9 +119,7 @@ TEST_F(Reload, AnEditedCameraStays) {
 TEST_F(Reload, ACameraThatTheNewTypeCannotBeGivesWayToThatOfTheScene) {
   LiveRender live(request());
   ASSERT_TRUE(has_picture(live));
-  CameraChange change;
-  change.eye = Vec3d(1, 0, -4);
-  live.move_camera(change);
+  move_camera(live);
   ASSERT_TRUE(comes(live, [](const LiveState& state) { return state.camera.fov.has_value(); }));
   std::string orthographic = kLiveScene;
   const std::string perspective = "\"perspective\" \"float fov\" 40";

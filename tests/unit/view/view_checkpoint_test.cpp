@@ -1,4 +1,4 @@
-// What a view with -o leaves in its output file.
+// The files that a view with -o writes.
 #include "view/view_checkpoint.h"
 
 #include <gtest/gtest.h>
