@@ -1,8 +1,11 @@
 // The layers of the output file, row by row.
 #include "film/film_output.h"
 
+#include <Imath/half.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <string_view>
 #include <utility>
@@ -200,6 +203,16 @@ void write_picture(const std::string& path, const Picture& picture, float exposu
   });
   write_png(png_path_beside(path), picture.width(), picture.height(),
             picture_srgb8(picture, exposure));
+}
+
+LayerPrecision exact_precision(const Picture& picture) {
+  const std::vector<bool> may_be_half = channels_in_half(picture, LayerPrecision::kHalf);
+  for (size_t i = 0; i < picture.pixels.size(); ++i) {
+    const float value = picture.pixels[i];
+    const bool is_exact = value == static_cast<float>(Imath::half(value)) || std::isnan(value);
+    if (may_be_half[i % may_be_half.size()] && !is_exact) return LayerPrecision::kFloat;
+  }
+  return LayerPrecision::kHalf;
 }
 
 void write_preview(const std::string& path, const Film& film, float exposure) {

@@ -39,6 +39,8 @@ void write_film(const std::string& path, const Film& film, Metadata metadata, fl
 /// The same for a picture in memory. Channels may be 16-bit floats as in the film's files.
 void write_picture(const std::string& path, const Picture& picture, float exposure,
                    LayerPrecision precision = LayerPrecision::kHalf);
+/// kHalf if that loses nothing of this picture.
+LayerPrecision exact_precision(const Picture& picture);
 /// Writes only the PNG.
 void write_preview(const std::string& path, const Film& film, float exposure);
 

@@ -41,6 +41,14 @@ std::vector<Triple> channels_named(const Picture& picture, const std::string& pr
   return result;
 }
 
+const RgbColorSpace& space_of(const PictureHead& picture) {
+  return picture.color_space != nullptr ? *picture.color_space : RgbColorSpace::srgb();
+}
+
+bool have_same_space(const PictureHead& a, const PictureHead& b) {
+  return space_of(a).name() == space_of(b).name();
+}
+
 /// Channels R, G and B, or the first three if one of those is missing.
 std::vector<Triple> colors_of(const Picture& picture) {
   std::vector<Triple> result = channels_named(picture, "");
@@ -51,6 +59,19 @@ std::vector<Triple> colors_of(const Picture& picture) {
   result.resize(picture.pixels.size() / stride);
   for (size_t p = 0; p < result.size(); ++p)
     for (size_t c = 0; c < 3; ++c) result[p][c] = finite_or_huge(picture.pixels[p * stride + c]);
+  return result;
+}
+
+/// The colours of `test` in the colour space of `reference`.
+std::vector<Triple> colors_as(const Picture& reference, const Picture& test) {
+  std::vector<Triple> result = colors_of(test);
+  if (have_same_space(reference, test)) return result;
+  for (Triple& color : result) {
+    const Rgb rgb{static_cast<float>(color[0]), static_cast<float>(color[1]),
+                  static_cast<float>(color[2])};
+    const Rgb converted = space_of(reference).from_xyz(space_of(test).to_xyz(rgb));
+    color = {converted.r, converted.g, converted.b};
+  }
   return result;
 }
 
@@ -165,7 +186,7 @@ Deviations deviations_of(const std::vector<Triple>& reference, const std::vector
 
 std::vector<double> relative_squared_errors(const Picture& reference, const Picture& test) {
   check_sizes(reference, test);
-  const std::vector<Triple> r = colors_of(reference), x = colors_of(test);
+  const std::vector<Triple> r = colors_of(reference), x = colors_as(reference, test);
   std::vector<double> errors(r.size());
   for (size_t p = 0; p < r.size(); ++p) errors[p] = pixel_error(r[p], x[p]);
   return errors;
@@ -174,9 +195,11 @@ std::vector<double> relative_squared_errors(const Picture& reference, const Pict
 Comparison compare_pictures(const Picture& reference, const Picture& test,
                             const CompareOptions& options) {
   check_sizes(reference, test);
-  const std::vector<Triple> r = colors_of(reference), x = colors_of(test);
+  const std::vector<Triple> r = colors_of(reference), x = colors_as(reference, test);
   const std::vector<Triple> r_error = channels_named(reference, "stderr.");
-  const std::vector<Triple> x_error = channels_named(test, "stderr.");
+  // Errors of mixed channels would need their correlations, which no file has.
+  const std::vector<Triple> x_error =
+      have_same_space(reference, test) ? channels_named(test, "stderr.") : std::vector<Triple>();
   if (options.subtract_reference_error && r_error.empty())
     throw UsageError(
         "--subtract-reference-error: the reference has no layer stderr, expected channels "

@@ -1,6 +1,7 @@
 // Errors of a picture against a reference: the figures of `nephroid compare` and its heat map.
-// Works on linear RGB; values that are not finite count as 1e6, so that they are visible but do not
-// spread. It must not know films or scenes.
+// Works on linear RGB in the colour space of the reference, into which the test is converted;
+// values that are not finite count as 1e6, so that they are visible but do not spread. It must not
+// know films or scenes.
 #pragma once
 
 #include <cmath>
@@ -43,7 +44,8 @@ struct Comparison {
   double relmse_trim = 0;  ///< the same without the worst 0.1 % of pixels (at least one)
   MeanRatio mean;          ///< all pixels, no interval
   MeanRatio dim_mean;      ///< pixels whose reference is below 10 in every channel
-  std::optional<Deviations> deviations;  ///< empty unless both pictures have stderr channels
+  std::optional<Deviations>
+      deviations;  ///< empty unless both pictures have stderr channels, in the same space
 };
 
 /// Throws UsageError if the sizes differ, if a picture has fewer than three channels, or if the

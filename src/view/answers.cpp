@@ -230,9 +230,10 @@ Answer Answers::save(const Parameters& parameters, const std::string&) {
   const TemporaryDirectory directory;
   const std::string exr = directory.file(stem + ".exr");
   source_.write(exr);
-  if (const std::string mix = text(parameters, "mix"); !mix.empty())
-    write_picture(exr, mixed(read_picture(exr), parse_mix(mix, mix_layers(read_picture_head(exr)))),
-                  1);
+  if (const std::string mix = text(parameters, "mix"); !mix.empty()) {
+    const Picture whole = read_picture(exr);
+    write_picture(exr, mixed(whole, parse_mix(mix, mix_layers(whole))), 1, exact_precision(whole));
+  }
   if (kind == "png")
     return deliver(read_file_bytes(png_path_beside(exr)), stem + ".png", "image/png");
   return deliver(read_file_bytes(exr), stem + ".exr", "image/x-exr");

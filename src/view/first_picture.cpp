@@ -27,21 +27,25 @@ float value_at(const FrameLayer& layer, size_t index) {
   return half * layer.scale;
 }
 
-/// Writes the mean of the pixels inside of the window to `out`, three bytes in sRGB.
+/// Writes the mean of the finite pixels inside of the window to `out`, three bytes in sRGB.
 void put_mean(const PictureFrame& frame, const Span& columns, const Span& rows, uint8_t* out) {
   const PixelBounds& window = frame.info.window;
   float sum[3] = {0, 0, 0};
   int count = 0;
+  bool is_inside = false;
   for (int y = std::max(rows.begin, window.y0); y < std::min(rows.end, window.y1); ++y)
     for (int x = std::max(columns.begin, window.x0); x < std::min(columns.end, window.x1); ++x) {
       const size_t pixel =
           static_cast<size_t>(y - window.y0) * window.width() + static_cast<size_t>(x - window.x0);
-      for (int c = 0; c < 3; ++c)
-        sum[c] += value_at(*frame.picture, 3 * pixel + static_cast<size_t>(c));
+      is_inside = true;
+      float value[3];
+      for (size_t c = 0; c < 3; ++c) value[c] = value_at(*frame.picture, 3 * pixel + c);
+      if (!std::isfinite(value[0] + value[1] + value[2])) continue;
+      for (int c = 0; c < 3; ++c) sum[c] += value[c];
       ++count;
     }
   for (int c = 0; c < 3; ++c)
-    out[c] = count == 0 ? kOutside : encode_srgb8(sum[c] / static_cast<float>(count));
+    out[c] = is_inside ? encode_srgb8(sum[c] / static_cast<float>(std::max(count, 1))) : kOutside;
 }
 
 }  // namespace

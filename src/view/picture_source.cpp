@@ -137,7 +137,7 @@ Picture PictureSource::colors(const LayerGains& gains) {
 }
 
 void PictureSource::write(const std::string& exr_path) {
-  write_picture(exr_path, picture_, 1);
+  write_picture(exr_path, picture_, 1, exact_precision(picture_));
 }
 
 }  // namespace nephroid

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <thread>
 
 #include "core/errors.h"
@@ -66,6 +67,7 @@ struct ViewServer::Impl {
   const std::function<void(const std::string&)> on_new_url;
   std::atomic<bool> is_ending{false};
   std::atomic<int> event_streams{0};
+  std::mutex upload_mutex;
   std::thread thread;
 
   Impl(ViewSource& view, Comparisons& others, const ServerSettings& settings)
@@ -198,18 +200,39 @@ struct ViewServer::Impl {
   using Method = Answer (Answers::*)(const Parameters&, const std::string& body);
 
   /// Answers a request by a method of Answers; its errors become answers.
+  void answer(Method method, const Request& request, const std::string& body, Response& response) {
+    Parameters parameters;
+    for (const auto& entry : request.params) parameters.emplace(entry.first, entry.second);
+    try {
+      put(response, (answers.*method)(parameters, body));
+    } catch (const UsageError& error) {
+      put(response, failure(400, error.what()));
+    } catch (const std::exception& error) {
+      put(response, failure(500, error.what()));
+    }
+  }
+
   httplib::Server::Handler by(Method method) {
     return [this, method](const Request& request, Response& response) {
-      Parameters parameters;
-      for (const auto& entry : request.params) parameters.emplace(entry.first, entry.second);
-      try {
-        put(response, (answers.*method)(parameters, request.body));
-      } catch (const UsageError& error) {
-        put(response, failure(400, error.what()));
-      } catch (const std::exception& error) {
-        put(response, failure(500, error.what()));
-      }
+      answer(method, request, request.body, response);
     };
+  }
+
+  /// One file at a time, so that their sum fits in memory.
+  void upload(const Request& request, Response& response, const httplib::ContentReader& read) {
+    const auto refuse = [&response](int status, const std::string& message) {
+      response.set_header("Connection", "close");  // the body is not read
+      put(response, failure(status, message));
+    };
+    const std::unique_lock lock(upload_mutex, std::try_to_lock);
+    if (!lock) return refuse(503, "another picture is being opened, try again");
+    if (request.is_multipart_form_data()) return refuse(415, "expected the file as the body");
+    std::string body;
+    read([&body](const char* data, size_t size) {
+      body.append(data, size);
+      return true;
+    });
+    answer(&Answers::upload, request, body, response);
   }
 
   void add_requests() {
@@ -225,7 +248,9 @@ struct ViewServer::Impl {
     server.Post("/api/render", by(&Answers::render));
     server.Post("/api/inspect", by(&Answers::inspect));
     server.Post("/api/snapshot", by(&Answers::snapshot));
-    server.Post(kUploadPath, by(&Answers::upload));
+    server.Post(kUploadPath,
+                [this](const Request& request, Response& response,
+                       const httplib::ContentReader& read) { upload(request, response, read); });
     server.Delete("/api/snapshot", by(&Answers::remove));
     server.Get("/api/events", [this](const Request&, Response& response) { events(response); });
   }

@@ -52,6 +52,27 @@ TEST(Compare, TrimDropsOneInAThousand) {
   EXPECT_NEAR(c.relmse_trim, 100 / 1.01 / 3 / 2997, 1e-9);
 }
 
+TEST(Compare, ColorsOfTwoSpacesAreOfOne) {
+  const RgbColorSpace& wide = *RgbColorSpace::find("rec2020");
+  const Rgb color{0.8f, 0.3f, 0.1f};
+  const Rgb same = wide.from_xyz(RgbColorSpace::srgb().to_xyz(color));
+  const Picture reference = rgb({color.r, color.g, color.b});
+  Picture test = rgb({same.r, same.g, same.b});
+  EXPECT_GT(compare_pictures(reference, test, {}).relmse, 0.01);
+  test.color_space = &wide;
+  EXPECT_LT(compare_pictures(reference, test, {}).relmse, 1e-10);
+  EXPECT_LT(compare_pictures(test, reference, {}).relmse, 1e-10);
+  EXPECT_LT(relative_squared_errors(reference, test)[0], 1e-10);
+}
+
+TEST(Compare, DeviationsNeedErrorsInTheSameSpace) {
+  const Picture reference = picture_of(kWithError, {1, 1, 1, 0.1f, 0.1f, 0.1f});
+  Picture test = reference;
+  EXPECT_TRUE(compare_pictures(reference, test, {}).deviations.has_value());
+  test.color_space = RgbColorSpace::find("rec2020");
+  EXPECT_FALSE(compare_pictures(reference, test, {}).deviations.has_value());
+}
+
 TEST(Compare, ChannelsByNameElseTheFirstThree) {
   const Picture named = picture_of({"A", "B", "G", "R"}, {9, 3, 2, 1});
   const Picture unnamed = picture_of({"x", "y", "z", "w"}, {1, 2, 3, 7});

@@ -58,5 +58,18 @@ TEST(FirstPicture, LargeOnesAreMeansOfLinearValuesInSrgb) {
   EXPECT_EQ(byte_at(small, 100, 1), encode_srgb8(0.5f));
 }
 
+TEST(FirstPicture, WhatIsNotFiniteIsLeftOut) {
+  PictureFrame frame = striped(2 * kMaxFirstPictureEdge, 6, {0, 0, 1024, 6});
+  FrameLayer layer = *frame.picture;
+  constexpr uint16_t kNan = 0x7e00, kInfinite = 0x7c00;
+  layer.pixels[0] = kNan;           // of four pixels, one is dark instead of two
+  layer.pixels[3 * 3] = kInfinite;  // one is bright instead of two
+  frame.picture = std::make_shared<const FrameLayer>(layer);
+  const Picture small = decoded(frame);
+  EXPECT_EQ(byte_at(small, 0, 0), encode_srgb8(2 / 3.0f));
+  EXPECT_EQ(byte_at(small, 1, 0), encode_srgb8(1 / 3.0f));
+  EXPECT_EQ(byte_at(small, 2, 0), encode_srgb8(0.5f));
+}
+
 }  // namespace
 }  // namespace nephroid

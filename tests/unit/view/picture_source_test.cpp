@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/errors.h"
+#include "film/atomic_file.h"
 #include "film/metadata_keys.h"
 #include "unit/view/decoded_frame.h"
 #include "unit/view/small_exr.h"
@@ -52,6 +54,11 @@ class PictureView : public testing::Test {
 float first_of(PictureSource& source, const std::string& layer, size_t value = 0) {
   const DecodedFrame frame = decode(*source.frame({layer}, 0, 0));
   return frame.values.at(value) * frame.header["layers"][0]["scale"].get<float>();
+}
+
+float pixel_of(const Picture& picture, const std::string& channel, size_t pixel) {
+  return picture.pixels.at(pixel * picture.channels.size() +
+                           static_cast<size_t>(picture.find_channel(channel)));
 }
 
 TEST_F(PictureView, SaysWhatTheFileHolds) {
@@ -181,6 +188,18 @@ TEST_F(PictureView, NumbersThatAreNotFiniteDoNoHarm) {
     EXPECT_EQ(answers.heat({{"with", "A"}, {"kind", kind}}, "").body.substr(1, 3), "PNG");
   EXPECT_EQ(answers.save({{"kind", "png"}}, "").body.substr(1, 3), "PNG");
   EXPECT_EQ(answers.first_picture({}, "").body.substr(1, 3), "PNG");
+}
+
+TEST_F(PictureView, SavedFilesHaveAllDigits) {
+  const Picture picture = small_picture(kChannels);  // 0.1 needs more than 16 bits
+  Answers& answers = answers_of(picture);
+  const std::string path = directory_.file("saved.exr");
+  const Answer saved_file = answers.save({{"kind", "exr"}}, "");
+  write_file_atomically(path, std::as_bytes(std::span(saved_file.body)));
+  const Picture saved = read_picture(path);
+  for (const std::string& name : kChannels)
+    for (size_t p = 0; p < 6; ++p)
+      EXPECT_EQ(pixel_of(saved, name, p), pixel_of(picture, name, p)) << name;
 }
 
 TEST_F(PictureView, ManySamplesAreStillANumber) {

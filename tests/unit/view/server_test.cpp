@@ -235,6 +235,31 @@ TEST_F(Server, RefusesLongAndMalformedBodies) {
   EXPECT_EQ(status_of_get("/" + std::string(9000, 'a'), of_browser()), 414);
 }
 
+TEST_F(Server, TakesOneUploadAtATime) {
+  const auto upload = [this] {
+    return status_of_post("/api/upload?name=x.exr", of_page(), "none", "application/octet-stream");
+  };
+  const int descriptor = connection();
+  send_text(descriptor, "POST /api/upload?name=slow.exr HTTP/1.1\r\nHost: " + host_ +
+                            "\r\nCookie: " + cookie() + "\r\nOrigin: http://" + host_ +
+                            "\r\nContent-Length: 1000\r\n\r\nsome");
+  int status = 0;
+  for (int i = 0; i < 100 && status != 503; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // until its headers are read
+    status = upload();
+  }
+  EXPECT_EQ(status, 503);
+  ::close(descriptor);
+  for (int i = 0; i < 100 && status == 503; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    status = upload();
+  }
+  EXPECT_EQ(status, 400);
+  EXPECT_EQ(
+      status_of_post("/api/upload?name=x.exr", of_page(), "--x", "multipart/form-data; boundary=x"),
+      415);
+}
+
 TEST_F(Server, SurvivesNonsense) {
   for (const std::string text :
        {"\r\n\r\n", "GET\r\n\r\n", "\xff\xfe\x00", "GET / HTTP/9.9\r\n\r\n",
