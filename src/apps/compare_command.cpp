@@ -44,8 +44,9 @@ int run_compare(const CompareCommand& command) {
   print_dim_mean(result.dim_mean);
   if (result.deviations)
     fmt::print(
-        "z_within={:.5g} z_rms={:.4g} z_in_95={:.4g} (shares: of pixels with |z| < {:g} in all "
-        "channels, and of pixels and channels within their 95 % intervals)\n",
+        "z_within={:.5g} z_rms={:.4g} z_in_95={:.4g} (z is the difference over its stated error: "
+        "z_rms is 1 and z_in_95 is 0.95 if the errors are right; z_within is the share of pixels "
+        "with |z| < {:g} in all channels)\n",
         result.deviations->share_within, result.deviations->rms, result.deviations->share_in_95,
         kDeviationLimit);
   if (!command.heat_map.empty()) {

@@ -176,14 +176,15 @@ std::vector<uint8_t> film_srgb8(const Film& film, float exposure) {
 
 std::vector<uint8_t> picture_srgb8(const Picture& picture, float exposure) {
   const size_t channels = picture.channels.size();
-  const auto r = static_cast<size_t>(picture.find_channel("R"));
-  const auto g = static_cast<size_t>(picture.find_channel("G"));
-  const auto b = static_cast<size_t>(picture.find_channel("B"));
+  const int r = picture.find_channel("R"), g = picture.find_channel("G"),
+            b = picture.find_channel("B");
   std::vector<uint8_t> bytes(picture.window.area() * 3);
   uint8_t* out = bytes.data();
   for (size_t i = 0; i < picture.pixels.size(); i += channels) {
-    const float* pixel = picture.pixels.data() + i;
-    out = put_srgb8(out, {pixel[r], pixel[g], pixel[b]}, picture.color_space, exposure);
+    const auto value = [&](int channel) {
+      return channel < 0 ? 0.0f : picture.pixels[i + static_cast<size_t>(channel)];
+    };
+    out = put_srgb8(out, {value(r), value(g), value(b)}, picture.color_space, exposure);
   }
   return bytes;
 }

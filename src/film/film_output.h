@@ -23,7 +23,7 @@ Picture film_picture(const Film& film, Metadata metadata);
 /// The film's R G B times `exposure`, in sRGB primaries and transfer, interleaved bytes.
 std::vector<uint8_t> film_srgb8(const Film& film, float exposure);
 
-/// The same of a picture in memory that has the channels R, G and B.
+/// The same of a picture in memory. A channel that it lacks is black.
 std::vector<uint8_t> picture_srgb8(const Picture& picture, float exposure);
 
 /// kHalf writes layers as 16-bit floats if their values fit, which halves a file. Layers that need

@@ -16,12 +16,14 @@ constexpr double kMaxWaitForRest = 20;  ///< seconds
 
 void LiveRender::at_rest(std::function<void(const RenderAtRest&)> run) {
   if (state().status == LiveStatus::kLoading) throw UsageError("the scene is being read");
-  const auto ticket = tasks_.add(std::move(run));
+  std::shared_ptr<RestTasks::Ticket> ticket;
   {
+    // Once the task has begun, the render may end: only the ticket is touched after this lock.
     const std::lock_guard lock(mutex_);
+    ticket = tasks_.add(std::move(run));
     signals_.write = true;
+    changed_.notify_all();
   }
-  changed_.notify_all();
   ticket->wait(kMaxWaitForRest);
 }
 

@@ -1,9 +1,26 @@
 #include "input/mitsuba/xml_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace nephroid::mitsuba {
+namespace {
+
+/// What is wrong at `offset` of the text.
+std::string mistake(const pugi::xml_parse_result& result, std::string_view text, size_t offset) {
+  if (result.status != pugi::status_end_element_mismatch)
+    return fmt::format("this is not well-formed XML: {}, expected XML elements",
+                       result.description());
+  const std::string_view rest = text.substr(std::min(offset, text.size()));
+  const std::string_view name = rest.substr(0, rest.find_first_of("> \t\r\n"));
+  if (name.empty()) return "the file ends in the middle of an element, expected its closing tag";
+  return fmt::format("</{}> does not close the element that is open", name);
+}
+
+}  // namespace
 
 XmlText::XmlText(std::string text, const std::string& name)
     : text_(std::move(text)), file_(std::make_shared<const std::string>(name)), line_starts_{0} {
@@ -12,10 +29,9 @@ XmlText::XmlText(std::string text, const std::string& name)
   if (text_.empty()) throw SceneError({file_, 0, 0}, "the file is empty, expected XML elements");
   const pugi::xml_parse_result result =
       document_.load_buffer(text_.data(), text_.size(), pugi::parse_default);
-  if (!result)
-    throw SceneError(place(static_cast<size_t>(std::max<ptrdiff_t>(result.offset, 0))),
-                     std::string("this is not well-formed XML: ") + result.description() +
-                         ", expected XML elements");
+  if (result) return;
+  const auto offset = static_cast<size_t>(std::max<ptrdiff_t>(result.offset, 0));
+  throw SceneError(place(offset), mistake(result, text_, offset));
 }
 
 SourceLocation XmlText::place(size_t offset) const {

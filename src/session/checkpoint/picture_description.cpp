@@ -99,11 +99,13 @@ bool is_state(const std::string& path) {
 }  // namespace
 
 bool is_picture(const std::string& path) {
+  namespace fs = std::filesystem;
   // Reading would consume the bytes of a pipe.
   if (path == kStandardInput || is_stream(path)) return false;
   constexpr std::array<char, 4> kMagic = {0x76, 0x2f, 0x31, 0x01};
   const auto begin = begin_of(path);
-  return is_state(path) || std::ranges::equal(kMagic, std::span(begin).first(4));
+  return is_state(path) || std::ranges::equal(kMagic, std::span(begin).first(4)) ||
+         (fs::path(path).extension() == ".exr" && fs::is_regular_file(path));
 }
 
 std::string description_of_picture(const std::string& path) {

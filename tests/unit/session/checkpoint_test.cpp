@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "core/errors.h"
 #include "film/exr_file.h"
@@ -63,6 +64,9 @@ TEST(PictureDescription, SaysWhatThePictureIsOf) {
   EXPECT_NE(description_of_picture(path).find("none, there is no " + state), std::string::npos);
   EXPECT_FALSE(is_picture(directory.file("none.exr")));
   EXPECT_FALSE(is_picture(directory.path()));
+  const std::string empty = directory.file("empty.exr");
+  std::ofstream(empty, std::ios::binary).flush();
+  EXPECT_TRUE(is_picture(empty));
 }
 
 std::string refusal_of_merge(const std::string& version) {
