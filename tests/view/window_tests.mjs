@@ -185,6 +185,8 @@ test('who asks for lamps sees the lamps', async () => {
 });
 
 test('a file of the command line is compared at once', async () => {
+  // The test before restarts the render, and a file needs its first whole pass.
+  await page.waitFor(() => window.nephroid.state.progress.passes > 0);
   const key = await page.evaluate(async () => {
     const picture = await (await fetch('api/save?kind=exr')).blob();
     return (await (await fetch('api/upload?name=other.exr', { method: 'POST', body: picture,
