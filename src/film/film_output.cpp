@@ -98,8 +98,7 @@ std::vector<bool> channels_in_half(const PictureHead& head, LayerPrecision preci
 
 /// Writes a colour of `space` as three bytes in sRGB.
 uint8_t* put_srgb8(uint8_t* out, Rgb color, const RgbColorSpace* space, float exposure) {
-  if (space != nullptr && space->name() != "srgb")
-    color = RgbColorSpace::srgb().from_xyz(space->to_xyz(color));
+  color = converted(color, space, nullptr);
   for (int c = 0; c < 3; ++c) *out++ = encode_srgb8(color[c] * exposure);
   return out;
 }

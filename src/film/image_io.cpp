@@ -120,6 +120,12 @@ Picture read_picture(const std::string& path) {
   return picture;
 }
 
+Rgb converted(Rgb color, const RgbColorSpace* from, const RgbColorSpace* to) {
+  const RgbColorSpace& source = from != nullptr ? *from : RgbColorSpace::srgb();
+  const RgbColorSpace& target = to != nullptr ? *to : RgbColorSpace::srgb();
+  return source.name() == target.name() ? color : target.from_xyz(source.to_xyz(color));
+}
+
 uint8_t encode_srgb8(float linear) {
   if (!(linear > 0.0f)) return 0;
   if (linear >= 1.0f) return 255;

@@ -52,6 +52,9 @@ PictureHead read_picture_head(const std::string& path);
 /// string metadata and the colour space of its chromaticities. Throws IoError.
 Picture read_picture(const std::string& path);
 
+/// A colour of the space `from` in the space `to`; null stands for sRGB.
+Rgb converted(Rgb color, const RgbColorSpace* from, const RgbColorSpace* to);
+
 /// Linear [0,1] to the sRGB code value, clamped and rounded; NaN becomes 0.
 uint8_t encode_srgb8(float linear);
 

@@ -41,12 +41,11 @@ std::vector<Triple> channels_named(const Picture& picture, const std::string& pr
   return result;
 }
 
-const RgbColorSpace& space_of(const PictureHead& picture) {
-  return picture.color_space != nullptr ? *picture.color_space : RgbColorSpace::srgb();
-}
-
 bool have_same_space(const PictureHead& a, const PictureHead& b) {
-  return space_of(a).name() == space_of(b).name();
+  const auto name = [](const PictureHead& picture) {
+    return picture.color_space != nullptr ? picture.color_space->name() : "srgb";
+  };
+  return name(a) == name(b);
 }
 
 /// Channels R, G and B, or the first three if one of those is missing.
@@ -69,8 +68,8 @@ std::vector<Triple> colors_as(const Picture& reference, const Picture& test) {
   for (Triple& color : result) {
     const Rgb rgb{static_cast<float>(color[0]), static_cast<float>(color[1]),
                   static_cast<float>(color[2])};
-    const Rgb converted = space_of(reference).from_xyz(space_of(test).to_xyz(rgb));
-    color = {converted.r, converted.g, converted.b};
+    const Rgb same = converted(rgb, test.color_space, reference.color_space);
+    color = {same.r, same.g, same.b};
   }
   return result;
 }

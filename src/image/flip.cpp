@@ -238,13 +238,11 @@ std::vector<Rgb> display_colors(const Picture& picture, float exposure) {
                         picture.find_channel("B")};
   if (std::all_of(named, named + 3, [](int i) { return i >= 0; }))
     std::copy(named, named + 3, index);
-  const RgbColorSpace* space = picture.color_space;
-  const bool convert = space != nullptr && space->name() != "srgb";
   std::vector<Rgb> colors(picture.pixels.size() / stride);
   for (size_t p = 0; p < colors.size(); ++p) {
     const float* pixel = picture.pixels.data() + p * stride;
-    Rgb color{pixel[index[0]], pixel[index[1]], pixel[index[2]]};
-    if (convert) color = RgbColorSpace::srgb().from_xyz(space->to_xyz(color));
+    const Rgb color = converted({pixel[index[0]], pixel[index[1]], pixel[index[2]]},
+                                picture.color_space, nullptr);
     const auto shown = [&](float value) {
       return value * exposure > 0 ? std::min(value * exposure, 1.0f) : 0.0f;
     };

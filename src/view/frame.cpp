@@ -80,9 +80,8 @@ std::vector<uint16_t> to_half(const std::vector<float>& values, float scale) {
 /// Converts colours to linear sRGB, which pages show. Null is sRGB.
 void to_srgb(std::vector<float>& colors, const RgbColorSpace* space) {
   if (space == nullptr || space->name() == "srgb") return;
-  const RgbColorSpace& srgb = RgbColorSpace::srgb();
   for (size_t i = 0; i + 2 < colors.size(); i += 3) {
-    const Rgb color = srgb.from_xyz(space->to_xyz({colors[i], colors[i + 1], colors[i + 2]}));
+    const Rgb color = converted({colors[i], colors[i + 1], colors[i + 2]}, space, nullptr);
     for (int c = 0; c < 3; ++c) colors[i + static_cast<size_t>(c)] = color[c];
   }
 }

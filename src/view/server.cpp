@@ -212,6 +212,7 @@ struct ViewServer::Impl {
     }
   }
 
+  /// The same as a handler of requests whose bodies were read.
   httplib::Server::Handler by(Method method) {
     return [this, method](const Request& request, Response& response) {
       answer(method, request, request.body, response);

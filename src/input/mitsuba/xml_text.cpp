@@ -9,15 +9,16 @@
 namespace nephroid::mitsuba {
 namespace {
 
-/// What is wrong at `offset` of the text.
+/// The message for a text that was understood up to `offset`.
 std::string mistake(const pugi::xml_parse_result& result, std::string_view text, size_t offset) {
   if (result.status != pugi::status_end_element_mismatch)
     return fmt::format("this is not well-formed XML: {}, expected XML elements",
                        result.description());
-  const std::string_view rest = text.substr(std::min(offset, text.size()));
-  const std::string_view name = rest.substr(0, rest.find_first_of("> \t\r\n"));
-  if (name.empty()) return "the file ends in the middle of an element, expected its closing tag";
-  return fmt::format("</{}> does not close the element that is open", name);
+  if (!text.substr(0, offset).ends_with("</"))
+    return "the file ends in the middle of an element, expected its closing tag";
+  const std::string_view rest = text.substr(offset);
+  return fmt::format("</{}> does not close the element that is open",
+                     rest.substr(0, rest.find_first_of("> \t\r\n")));
 }
 
 }  // namespace
@@ -30,7 +31,8 @@ XmlText::XmlText(std::string text, const std::string& name)
   const pugi::xml_parse_result result =
       document_.load_buffer(text_.data(), text_.size(), pugi::parse_default);
   if (result) return;
-  const auto offset = static_cast<size_t>(std::max<ptrdiff_t>(result.offset, 0));
+  const size_t offset =
+      std::min(static_cast<size_t>(std::max<ptrdiff_t>(result.offset, 0)), text_.size());
   throw SceneError(place(offset), mistake(result, text_, offset));
 }
 

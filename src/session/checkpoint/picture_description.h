@@ -6,7 +6,7 @@
 
 namespace nephroid {
 
-/// True if a file begins like an OpenEXR file or a state file, or is called .exr.
+/// True if a file begins like an OpenEXR file or a state file, or its name ends in .exr.
 bool is_picture(const std::string& path);
 
 /// Describes the file, its pixels, its passes, and whether it can be resumed or merged. Then lists

@@ -204,6 +204,10 @@ TEST(MitsubaDocument, OtherXmlIsAnError) {
   MitsubaScene scene;
   EXPECT_TRUE(has(scene.file_error("<scene version=\"0.6.0\">\n<shape type=\"cube\">\n</scene>"),
                   "scene.xml:3:3: </scene> does not close the element that is open"));
+  EXPECT_TRUE(has(scene.file_error("<scene version=\"0.6.0\"></>"),
+                  "scene.xml:1:26: </> does not close the element that is open"));
+  EXPECT_TRUE(has(scene.file_error("<scene version=\"0.6.0\">\n<shape type=\"cube\"/>\n"),
+                  "the file ends in the middle of an element"));
   EXPECT_TRUE(has(scene.file_error("<COLLADA/>"), "scene.xml:1:1: this is a COLLADA scene"));
   EXPECT_TRUE(has(scene.file_error("<a/>"), "scene.xml:1:1: this is an XML file"));
   EXPECT_EQ(scene.file_error(""), "scene.xml: the file is empty, expected XML elements");
