@@ -185,7 +185,10 @@ test('who asks for lamps sees the lamps', async () => {
 });
 
 test('a file of the command line is compared at once', async () => {
-  // The test before restarts the render, and a file needs its first whole pass.
+  // A file needs the first whole pass, and a test before has paused a render that had just begun.
+  await page.evaluate(() => {
+    if (window.nephroid.state.status === 'paused') document.querySelector('#pause-icon').click();
+  });
   await page.waitFor(() => window.nephroid.state.progress.passes > 0);
   const key = await page.evaluate(async () => {
     const picture = await (await fetch('api/save?kind=exr')).blob();
