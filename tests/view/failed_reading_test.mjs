@@ -31,13 +31,21 @@ function endOf(command, ...parameters) {
 }
 
 test('a missing file, and one that is no scene, end it as they end a render', () => {
-  const text = join(folder, 'text.exr');
-  writeFileSync(text, 'hello\n');
-  for (const file of [join(folder, 'nix.obj'), text]) {
+  const picture = join(folder, 'picture.png');
+  writeFileSync(picture, '\x89PNG\r\n\x1a\n', 'latin1');
+  for (const file of [join(folder, 'nix.obj'), picture]) {
     const ended = endOf('view', file, '--no-browser');
     assert.deepEqual(ended, endOf('render', file, '-o', join(folder, 'out.exr')));
     assert.notEqual(ended.status, 0);
   }
+});
+
+test('a file that is no picture in spite of its name ends it', () => {
+  const text = join(folder, 'text.exr');
+  writeFileSync(text, 'hello\n');
+  const { status, stderr } = endOf('view', text, '--no-browser');
+  assert.equal(status, 4);
+  assert.match(stderr, /text\.exr" is not an OpenEXR file/);
 });
 
 test('a scene with a mistake is waited for until it is mended', async () => {

@@ -160,9 +160,16 @@ test('a page too many says why it has no connection', async () => {
   const { cookies } = await page.send('Network.getCookies');
   const headers = { Cookie: cookies.map((one) => `${one.name}=${one.value}`).join('; ') };
   const events = new URL('/api/events', view.address);
+  await page.goto('about:blank');
   const streams = [];
-  for (let i = 0; i < kMaxPages; ++i) streams.push(get(events, { headers }).on('error', () => {}));
-  await page.evaluate(() => new Promise((resolve) => { setTimeout(resolve, 500); }));
+  const end = Date.now() + 20000;
+  while (streams.length < kMaxPages) {
+    const stream = get(events, { headers }).on('error', () => {});
+    const { statusCode } = await new Promise((resolve) => { stream.once('response', resolve); });
+    if (statusCode === 200) streams.push(stream);
+    else await new Promise((resolve) => { setTimeout(resolve, 100); });
+    assert.ok(Date.now() < end, 'the first page does not give its connection back');
+  }
   const other = await browser.open(800, 600);
   await other.goto(new URL('/', view.address).href);
   await other.waitFor(() => /too many pages/.test(document.querySelector('#notice')?.textContent));
