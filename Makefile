@@ -71,11 +71,12 @@ docs:
 	@doxygen docs/site/Doxyfile
 	@echo "The documentation: $(CURDIR)/build/site/index.html, for developers: $(CURDIR)/build/site/reference/index.html"
 
-# Compiles everything with clang, whose warnings are errors, too; not optimised, with assertions. Runs only the program,
-# for one small pass.
+# Compiles everything with clang, or the targets that CLANG_TARGETS names. Its warnings are errors, too; not optimised, with
+# assertions. Runs only the program, for one small pass.
+CLANG_TARGETS ?=
 clang: deps-clang
 	@cmake --preset clang >/dev/null
-	@cmake --build --preset clang
+	@cmake --build --preset clang $(if $(CLANG_TARGETS),--target $(CLANG_TARGETS))
 	build/clang/bin/nephroid render scenes/coffee-cup/scene.pbrt --passes 1 --resolution 60x40 --quiet --no-state \
 	  -o build/clang/smoke.exr
 

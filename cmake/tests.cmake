@@ -40,6 +40,11 @@ add_library(test_source_directory STATIC tests/source_directory.cpp)
 target_link_libraries(test_source_directory PRIVATE nephroid_core GTest::gtest)
 set_source_files_properties(tests/source_directory.cpp PROPERTIES
                             COMPILE_DEFINITIONS NEPHROID_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+# Most of a test's time is its compilation, and the code under test has the flags of the program.
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  set(test_options -O1)
+endif()
+target_compile_options(test_source_directory PRIVATE ${test_options})
 # It compiles the headers for all tests: to reuse those of an executable would be to wait for it.
 nephroid_precompiled(test_source_directory test_source_directory <gtest/gtest.h>)
 
@@ -72,6 +77,7 @@ function(nephroid_test folder)
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE ${ARGN} test_source_directory GTest::gtest GTest::gtest_main)
   target_include_directories(test_${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+  target_compile_options(test_${name} PRIVATE ${test_options})
   nephroid_precompiled(test_${name} test_source_directory)
   if(NEPHROID_SANITIZE)
     add_test(NAME ${name} COMMAND test_${name})

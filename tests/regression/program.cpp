@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -41,6 +42,10 @@ pid_t start(const std::string& folder, const std::vector<std::string>& arguments
   return child;
 }
 
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
 /// Peak memory of a process. wait4 would report that of the process that started it.
 uint64_t peak_memory_of(pid_t process) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
@@ -72,15 +77,15 @@ ProgramRun run_program(const std::string& folder, const std::vector<std::string>
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   ProgramRun run;
-  const auto begin = std::chrono::steady_clock::now();
   const pid_t child = start(folder, arguments, input, ends[1]);
   close(ends[1]);
   run.hung = !read_all(ends[0], child, &run.errors, &run.peak_memory);
   close(ends[0]);
   if (run.hung) kill(child, SIGKILL);
   int state = 0;
-  waitpid(child, &state, 0);
-  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  rusage usage{};
+  wait4(child, &state, 0, &usage);
+  run.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
   if (WIFEXITED(state)) run.status = WEXITSTATUS(state);
   if (WIFSIGNALED(state)) run.signal = WTERMSIG(state);
   return run;
