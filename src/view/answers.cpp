@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 
 constexpr int64_t kMaxUploadedValues = int64_t{1} << 28;  ///< pixels times channels
 constexpr size_t kMaxLayers = 64;
-constexpr double kMaxWaitForPicture = 1;  ///< seconds
+constexpr double kMaxWaitForPicture = 5;  ///< seconds
 constexpr const char *kBinary = "application/octet-stream", *kText = "text/plain; charset=utf-8";
 
 Answer json_answer(const Json& json) {
@@ -173,9 +173,12 @@ Answer Answers::first_picture(const Parameters&, const std::string&) {
     const LiveStatus status = source_.state().status;
     return status == LiveStatus::kLoading || status == LiveStatus::kRendering;
   };
-  for (uint64_t seen = 0; !picture && may_come() && Clock::now() < end; picture = source_.picture())
-    seen = source_.wait_for_news(
-        seen, std::max(0.0, std::chrono::duration<double>(end - Clock::now()).count()));
+  for (uint64_t seen = 0; !picture && may_come(); picture = source_.picture()) {
+    const double left = std::chrono::duration<double>(end - Clock::now()).count();
+    const uint64_t news = source_.wait_for_news(seen, std::max(0.0, left));
+    if (news == seen) break;  // too late, or the program ends
+    seen = news;
+  }
   if (!picture) {
     Answer none;
     none.status = 204;
