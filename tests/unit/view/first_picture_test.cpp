@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <thread>
+
+#include "view/answers.h"
+#include "view/comparisons.h"
 
 namespace nephroid {
 namespace {
@@ -25,6 +30,42 @@ PictureFrame striped(int width, int height, const PixelBounds& window) {
   info.height = height;
   info.window = window;
   return {info, frame_layer(picture, "picture", "RGB", {"R", "G", "B"})};
+}
+
+/// A render that has news every 0.6 s, and with the last of them a picture. Then it ends.
+class SlowRender final : public ViewSource {
+ public:
+  SlowRender(uint64_t news, bool has_picture) : last_(news), has_picture_(has_picture) {}
+  LiveState state() const override {
+    LiveState state;
+    state.status = LiveStatus::kRendering;
+    return state;
+  }
+  uint64_t wait_for_news(uint64_t seen, double) const override {
+    if (news_ == last_) return seen;
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    return ++news_;
+  }
+  std::optional<PictureFrame> picture() override {
+    if (news_ < last_ || !has_picture_) return std::nullopt;
+    return striped(4, 3, {0, 0, 4, 3});
+  }
+  std::optional<std::string> frame(const std::vector<std::string>&, uint64_t, uint64_t) override {
+    return std::nullopt;
+  }
+  ProbedPixel probe(int, int) override { return {}; }
+  Picture colors(const LayerGains&) override { return {}; }
+  void write(const std::string&) override {}
+
+ private:
+  mutable uint64_t news_ = 0;
+  uint64_t last_;
+  bool has_picture_;
+};
+
+Answer first_answer(SlowRender render) {
+  Comparisons comparisons;
+  return Answers(render, comparisons, "").first_picture({}, {});
 }
 
 Picture decoded(const PictureFrame& frame) {
@@ -49,6 +90,13 @@ TEST(FirstPicture, SmallPicturesKeepTheirPixelsAndAreDarkOutsideOfTheWindow) {
   EXPECT_EQ(byte_at(small, 0, 1), 9);
   EXPECT_EQ(byte_at(small, 1, 1), 255);
   EXPECT_EQ(byte_at(small, 2, 2), 0);
+}
+
+TEST(FirstPicture, IsWaitedForUntilTheProgramEnds) {
+  const Answer late = first_answer({2, true});
+  EXPECT_EQ(late.status, 200);
+  EXPECT_EQ(late.body.substr(1, 3), "PNG");
+  EXPECT_EQ(first_answer({1, false}).status, 204);
 }
 
 TEST(FirstPicture, LargeOnesAreMeansOfLinearValuesInSrgb) {
