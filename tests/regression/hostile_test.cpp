@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMaxCpuSeconds = 10;
+constexpr double kMaxSeconds = 10, kMaxCpuSeconds = 10;
 constexpr uint64_t kMaxMemory = uint64_t{1} << 30;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kIsSlowAndLarge = true;
@@ -74,6 +74,7 @@ TEST(HostileScenes, GiveAPictureOrALocatedMessage) {
     EXPECT_FALSE(run.hung);
     EXPECT_EQ(run.signal, 0) << run.errors;
     if (!kIsSlowAndLarge) {
+      EXPECT_LT(run.seconds, kMaxSeconds);
       EXPECT_LT(run.cpu_seconds, kMaxCpuSeconds);
       EXPECT_LT(run.peak_memory, kMaxMemory);
     }

@@ -77,6 +77,7 @@ ProgramRun run_program(const std::string& folder, const std::vector<std::string>
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   ProgramRun run;
+  const auto begin = std::chrono::steady_clock::now();
   const pid_t child = start(folder, arguments, input, ends[1]);
   close(ends[1]);
   run.hung = !read_all(ends[0], child, &run.errors, &run.peak_memory);
@@ -85,6 +86,7 @@ ProgramRun run_program(const std::string& folder, const std::vector<std::string>
   int state = 0;
   rusage usage{};
   wait4(child, &state, 0, &usage);
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   run.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
   if (WIFEXITED(state)) run.status = WEXITSTATUS(state);
   if (WIFSIGNALED(state)) run.signal = WTERMSIG(state);

@@ -14,7 +14,8 @@ struct ProgramRun {
   int signal = 0;            ///< signal that ended it, 0 if none did
   bool hung = false;         ///< still running after a minute, and killed
   std::string errors;        ///< all of standard error
-  double cpu_seconds = 0;    ///< of all its threads, so it does not depend on the machine's load
+  double seconds = 0;        ///< running time
+  double cpu_seconds = 0;    ///< sum over its threads
   uint64_t peak_memory = 0;  ///< bytes, sampled a hundred times a second
 };
 

@@ -166,8 +166,12 @@ test('a page too many says why it has no connection', async () => {
   while (streams.length < kMaxPages) {
     const stream = get(events, { headers }).on('error', () => {});
     const { statusCode } = await new Promise((resolve) => { stream.once('response', resolve); });
-    if (statusCode === 200) streams.push(stream);
-    else await new Promise((resolve) => { setTimeout(resolve, 100); });
+    if (statusCode === 200) {
+      streams.push(stream);
+    } else {
+      stream.destroy();
+      await new Promise((resolve) => { setTimeout(resolve, 100); });
+    }
     assert.ok(Date.now() < end, 'the first page does not give its connection back');
   }
   const other = await browser.open(800, 600);

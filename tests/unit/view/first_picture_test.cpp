@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -32,7 +33,8 @@ PictureFrame striped(int width, int height, const PixelBounds& window) {
   return {info, frame_layer(picture, "picture", "RGB", {"R", "G", "B"})};
 }
 
-/// A render that has news every 0.6 s, and with the last of them a picture. Then it ends.
+/// A render that has news every 0.6 s, and with the last of them a picture if it has one. Then it
+/// has no more news, as when the program ends.
 class SlowRender final : public ViewSource {
  public:
   SlowRender(uint64_t news, bool has_picture) : last_(news), has_picture_(has_picture) {}
@@ -41,11 +43,13 @@ class SlowRender final : public ViewSource {
     state.status = LiveStatus::kRendering;
     return state;
   }
-  uint64_t wait_for_news(uint64_t seen, double) const override {
+  uint64_t wait_for_news(uint64_t seen, double longest) const override {
+    ++waits_;
     if (news_ == last_) return seen;
-    std::this_thread::sleep_for(std::chrono::milliseconds(600));
-    return ++news_;
+    std::this_thread::sleep_for(std::chrono::duration<double>(std::min(longest, kSeconds)));
+    return longest < kSeconds ? seen : ++news_;
   }
+  int waits() const { return waits_; }
   std::optional<PictureFrame> picture() override {
     if (news_ < last_ || !has_picture_) return std::nullopt;
     return striped(4, 3, {0, 0, 4, 3});
@@ -58,12 +62,14 @@ class SlowRender final : public ViewSource {
   void write(const std::string&) override {}
 
  private:
+  static constexpr double kSeconds = 0.6;
   mutable uint64_t news_ = 0;
+  mutable int waits_ = 0;
   uint64_t last_;
   bool has_picture_;
 };
 
-Answer first_answer(SlowRender render) {
+Answer first_answer(SlowRender& render) {
   Comparisons comparisons;
   return Answers(render, comparisons, "").first_picture({}, {});
 }
@@ -92,11 +98,17 @@ TEST(FirstPicture, SmallPicturesKeepTheirPixelsAndAreDarkOutsideOfTheWindow) {
   EXPECT_EQ(byte_at(small, 2, 2), 0);
 }
 
-TEST(FirstPicture, IsWaitedForUntilTheProgramEnds) {
-  const Answer late = first_answer({2, true});
+TEST(FirstPicture, ThatComesLateIsWaitedFor) {
+  SlowRender render(3, true);
+  const Answer late = first_answer(render);
   EXPECT_EQ(late.status, 200);
   EXPECT_EQ(late.body.substr(1, 3), "PNG");
-  EXPECT_EQ(first_answer({1, false}).status, 204);
+}
+
+TEST(FirstPicture, IsNotWaitedForWhenTheProgramEnds) {
+  SlowRender render(0, false);
+  EXPECT_EQ(first_answer(render).status, 204);
+  EXPECT_EQ(render.waits(), 1);
 }
 
 TEST(FirstPicture, LargeOnesAreMeansOfLinearValuesInSrgb) {
