@@ -7,6 +7,10 @@ target_compile_options(nephroid_flags INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 warns of string concatenations that are fine (GCC bug 105651).
   target_compile_options(nephroid_flags INTERFACE -Wno-restrict)
+  # Several files in one: it takes classes with members of an anonymous namespace for those of a header.
+  if(CMAKE_UNITY_BUILD)
+    target_compile_options(nephroid_flags INTERFACE -Wno-subobject-linkage)
+  endif()
 endif()
 if(NEPHROID_NATIVE)
   target_compile_options(nephroid_flags INTERFACE -march=native)

@@ -4,6 +4,8 @@ if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   message(FATAL_ERROR "NEPHROID_FUZZ needs clang++, expected -DCMAKE_CXX_COMPILER=clang++")
 endif()
 
+add_custom_target(fuzzers)
+
 function(nephroid_fuzzer name)
   add_executable(fuzz_${name} ${CMAKE_SOURCE_DIR}/tests/fuzz/libfuzzer/entry.cpp
                  ${CMAKE_SOURCE_DIR}/tests/fuzz/${name}_target.cpp
@@ -13,6 +15,7 @@ function(nephroid_fuzzer name)
   target_compile_definitions(fuzz_${name} PRIVATE NEPHROID_FUZZ_TARGET=${name})
   target_link_libraries(fuzz_${name} PRIVATE ${ARGN})
   target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer -Wl,--wrap=fopen)
+  add_dependencies(fuzzers fuzz_${name})
 endfunction()
 
 nephroid_fuzzer(scene nephroid_input)

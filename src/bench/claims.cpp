@@ -62,12 +62,6 @@ struct Pair {
   std::string where;
 };
 
-bool is_error(BenchMetric metric) {
-  return metric == BenchMetric::kRmse || metric == BenchMetric::kRelmse ||
-         metric == BenchMetric::kRelmseTrim || metric == BenchMetric::kFlip ||
-         metric == BenchMetric::kMeanError;
-}
-
 /// The number of renders behind errors at the end, as text. Empty for one each, and for other
 /// metrics.
 std::string over_renders(const BenchClaim& claim, std::initializer_list<const BenchRun*> runs) {

@@ -16,12 +16,12 @@
 namespace nephroid {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using ResultJson = nlohmann::ordered_json;
 
 /// Version of results.json; other versions are refused.
 constexpr int kResultsFormat = 2;
 
-Json errors_json(const BenchErrors& e) {
+ResultJson errors_json(const BenchErrors& e) {
   return {{"rmse", e.rmse},
           {"relmse", e.relmse},
           {"relmse_trim", e.relmse_trim},
@@ -31,43 +31,43 @@ Json errors_json(const BenchErrors& e) {
 
 /// The figure of a JSON value. Figures that are not finite are written as null: the relative error
 /// of a mean for a black reference.
-double figure_of(const Json& json) {
+double figure_of(const ResultJson& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
-BenchErrors errors_of(const Json& json) {
+BenchErrors errors_of(const ResultJson& json) {
   const auto figure = [&](const char* name) { return figure_of(json.at(name)); };
   return {figure("rmse"), figure("relmse"), figure("relmse_trim"), figure("mean_error"),
           figure("flip")};
 }
 
-Json shares_json(const BenchShares& shares) {
-  Json json = Json::object();
+ResultJson shares_json(const BenchShares& shares) {
+  ResultJson json = ResultJson::object();
   for (const auto& [name, share] : shares) json[name] = share;
   return json;
 }
 
-Json named_json(const BenchNamedErrors& list) {
-  Json json = Json::object();
+ResultJson named_json(const BenchNamedErrors& list) {
+  ResultJson json = ResultJson::object();
   for (const auto& [name, errors] : list) json[name] = errors_json(errors);
   return json;
 }
 
-BenchNamedErrors named_of(const Json& json) {
+BenchNamedErrors named_of(const ResultJson& json) {
   BenchNamedErrors list;
   for (const auto& [name, errors] : json.items()) list.emplace_back(name, errors_of(errors));
   return list;
 }
 
-BenchShares shares_of(const Json& json) {
+BenchShares shares_of(const ResultJson& json) {
   BenchShares shares;
   for (const auto& [name, share] : json.items()) shares.emplace_back(name, figure_of(share));
   return shares;
 }
 
 /// One render.
-Json run_json(const BenchRun& run) {
-  Json json = {{"integrator", run.integrator}, {"seed", run.seed}, {"key", run.key}};
+ResultJson run_json(const BenchRun& run) {
+  ResultJson json = {{"integrator", run.integrator}, {"seed", run.seed}, {"key", run.key}};
   if (!run.failure.empty()) {
     json["failure"] = run.failure;
     return json;
@@ -86,7 +86,7 @@ Json run_json(const BenchRun& run) {
   json["energy"] = shares_json(run.energy);
   json["regions"] = named_json(run.regions);
   json["notes"] = run.notes;
-  json["points"] = Json::array();
+  json["points"] = ResultJson::array();
   for (const BenchPoint& p : run.points)
     json["points"].push_back({{"passes", p.passes},
                               {"seconds", p.seconds},
@@ -96,7 +96,7 @@ Json run_json(const BenchRun& run) {
   return json;
 }
 
-BenchRun run_of(const Json& json) {
+BenchRun run_of(const ResultJson& json) {
   BenchRun run;
   run.integrator = json.at("integrator");
   run.seed = json.at("seed");
@@ -117,21 +117,22 @@ BenchRun run_of(const Json& json) {
   run.energy = shares_of(json.at("energy"));
   run.regions = named_of(json.at("regions"));
   run.notes = json.at("notes").get<std::vector<std::string>>();
-  for (const Json& point : json.at("points"))
+  for (const ResultJson& point : json.at("points"))
     run.points.push_back({point.at("passes"), point.at("seconds"), point.at("emitted"),
                           errors_of(point.at("errors")), named_of(point.at("layers"))});
   return run;
 }
 
-Json reference_json(const BenchReferenceResult& r) {
-  Json json = {{"picture", r.picture}, {"key", r.key},         {"rendered", r.rendered},
-               {"passes", r.passes},   {"seconds", r.seconds}, {"energy", shares_json(r.energy)}};
+ResultJson reference_json(const BenchReferenceResult& r) {
+  ResultJson json = {{"picture", r.picture},   {"key", r.key},
+                     {"rendered", r.rendered}, {"passes", r.passes},
+                     {"seconds", r.seconds},   {"energy", shares_json(r.energy)}};
   if (!r.integrator.empty()) json["integrator"] = r.integrator;
   if (r.own_error) json["own_error"] = *r.own_error;
   return json;
 }
 
-BenchReferenceResult reference_of(const Json& json) {
+BenchReferenceResult reference_of(const ResultJson& json) {
   BenchReferenceResult r;
   r.picture = json.at("picture");
   r.key = json.at("key");
@@ -146,17 +147,18 @@ BenchReferenceResult reference_of(const Json& json) {
 
 /// Parses a text and applies `read`; empty if the text does not fit.
 template <class Read>
-auto read_json(const std::string& text, const Read& read) -> std::optional<decltype(read(Json()))> {
+auto read_json(const std::string& text, const Read& read)
+    -> std::optional<decltype(read(ResultJson()))> {
   try {
-    return read(Json::parse(text));
+    return read(ResultJson::parse(text));
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }
 }
 
 /// JSON as text. Paths and messages may have bytes that are not UTF-8, which are replaced.
-std::string dump(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+std::string dump(const ResultJson& json) {
+  return json.dump(2, ' ', false, ResultJson::error_handler_t::replace) + "\n";
 }
 
 const char* state_name(BenchVerdict::State state) {
@@ -173,17 +175,17 @@ BenchVerdict::State state_of(const std::string& name) {
 }
 
 /// A run of results.json, with its repetitions.
-BenchRun repeated_run_of(const Json& json) {
+BenchRun repeated_run_of(const ResultJson& json) {
   BenchRun run = run_of(json);
   if (json.contains("again"))
-    for (const Json& again : json.at("again")) run.again.push_back(run_of(again));
+    for (const ResultJson& again : json.at("again")) run.again.push_back(run_of(again));
   const auto is_whole = [](const BenchRun& r) { return !r.failure.empty() || !r.points.empty(); };
   if (!is_whole(run) || !std::all_of(run.again.begin(), run.again.end(), is_whole))
     throw UsageError("a run of '" + run.integrator + "' has no points");
   return run;
 }
 
-void read_scene(const Json& json, BenchResults* results) {
+void read_scene(const ResultJson& json, BenchResults* results) {
   BenchScene shown;
   shown.name = json.at("name");
   shown.title = json.at("title");
@@ -195,7 +197,7 @@ void read_scene(const Json& json, BenchResults* results) {
   scene.width = json.at("width");
   scene.height = json.at("height");
   scene.reference = reference_of(json.at("reference"));
-  for (const Json& run : json.at("runs")) {
+  for (const ResultJson& run : json.at("runs")) {
     scene.runs.push_back(repeated_run_of(run));
     if (results->suite.find_integrator(scene.runs.back().integrator) == nullptr)
       throw UsageError("unknown integrator '" + scene.runs.back().integrator + "'");
@@ -204,12 +206,12 @@ void read_scene(const Json& json, BenchResults* results) {
   results->scenes.push_back(std::move(scene));
 }
 
-void read_claim(const Json& json, BenchResults* results) {
+void read_claim(const ResultJson& json, BenchResults* results) {
   BenchClaim claim;
   claim.text = json.at("text");
   BenchVerdict verdict;
   verdict.state = state_of(json.at("state"));
-  for (const Json& figure : json.at("figures")) {
+  for (const ResultJson& figure : json.at("figures")) {
     verdict.figures.push_back({figure.at("scene"), figure.at("figure"), figure.at("holds")});
     if (results->suite.find_scene(verdict.figures.back().scene) == nullptr)
       throw UsageError("unknown scene '" + verdict.figures.back().scene + "'");
@@ -218,7 +220,7 @@ void read_claim(const Json& json, BenchResults* results) {
   results->verdicts.push_back(std::move(verdict));
 }
 
-BenchResults results_of(const Json& json) {
+BenchResults results_of(const ResultJson& json) {
   if (json.at("format") != kResultsFormat)
     throw UsageError("its format is " + json.at("format").dump() + ", expected " +
                      std::to_string(kResultsFormat));
@@ -228,13 +230,13 @@ BenchResults results_of(const Json& json) {
   results.suite.description = json.at("description");
   results.directory = json.at("directory");
   results.signal = json.at("signal");
-  const Json& m = json.at("machine");
+  const ResultJson& m = json.at("machine");
   results.machine = {m.at("version"), m.at("instruction_set"), m.at("processor"),
                      m.at("date"),    m.at("threads"),         m.at("command")};
-  for (const Json& name : json.at("integrators"))
+  for (const ResultJson& name : json.at("integrators"))
     results.suite.integrators.emplace_back().name = name;
-  for (const Json& scene : json.at("scenes")) read_scene(scene, &results);
-  for (const Json& claim : json.at("claims")) read_claim(claim, &results);
+  for (const ResultJson& scene : json.at("scenes")) read_scene(scene, &results);
+  for (const ResultJson& claim : json.at("claims")) read_claim(claim, &results);
   return results;
 }
 
@@ -285,32 +287,32 @@ std::optional<BenchReferenceResult> reference_from_json(const std::string& text)
 
 std::string results_json(const BenchResults& results) {
   const BenchMachine& m = results.machine;
-  Json json = {{"format", kResultsFormat},
-               {"suite", results.suite.name},
-               {"title", results.suite.title},
-               {"description", results.suite.description},
-               {"directory", results.directory},
-               {"signal", results.signal},
-               {"integrators", Json::array()},
-               {"machine",
-                {{"version", m.version},
-                 {"instruction_set", m.instruction_set},
-                 {"processor", m.processor},
-                 {"threads", m.threads},
-                 {"date", m.date},
-                 {"command", m.command}}},
-               {"scenes", Json::array()},
-               {"claims", Json::array()}};
+  ResultJson json = {{"format", kResultsFormat},
+                     {"suite", results.suite.name},
+                     {"title", results.suite.title},
+                     {"description", results.suite.description},
+                     {"directory", results.directory},
+                     {"signal", results.signal},
+                     {"integrators", ResultJson::array()},
+                     {"machine",
+                      {{"version", m.version},
+                       {"instruction_set", m.instruction_set},
+                       {"processor", m.processor},
+                       {"threads", m.threads},
+                       {"date", m.date},
+                       {"command", m.command}}},
+                     {"scenes", ResultJson::array()},
+                     {"claims", ResultJson::array()}};
   for (const BenchIntegrator& integrator : results.suite.integrators)
     json["integrators"].push_back(integrator.name);
   for (const BenchSceneResult& scene : results.scenes) {
     const BenchScene& in_suite = *results.suite.find_scene(scene.name);
-    Json runs = Json::array();
+    ResultJson runs = ResultJson::array();
     for (const BenchRun& run : scene.runs) {
-      Json all = run_json(run);
+      ResultJson all = run_json(run);
       if (!run.again.empty()) {
         if (run.failure.empty()) all["errors_of_all"] = errors_json(errors_at_end(run));
-        all["again"] = Json::array();
+        all["again"] = ResultJson::array();
         for (const BenchRun& again : run.again) all["again"].push_back(run_json(again));
       }
       runs.push_back(std::move(all));
@@ -326,7 +328,7 @@ std::string results_json(const BenchResults& results) {
                               {"runs", std::move(runs)}});
   }
   for (size_t i = 0; i < results.verdicts.size(); ++i) {
-    Json figures = Json::array();
+    ResultJson figures = ResultJson::array();
     for (const BenchFigure& figure : results.verdicts[i].figures)
       figures.push_back(
           {{"scene", figure.scene}, {"figure", figure.text}, {"holds", figure.holds}});
@@ -340,7 +342,7 @@ std::string results_json(const BenchResults& results) {
 BenchResults results_from_json(const std::string& text, const std::string& file) {
   BenchResults results;
   try {
-    results = results_of(Json::parse(text));
+    results = results_of(ResultJson::parse(text));
   } catch (const std::exception& error) {
     throw UsageError(
         fmt::format("{}: not the results of a suite: {}; expected a results.json of "

@@ -76,6 +76,13 @@ enum class BenchMetric {
   kSlope,  ///< slope of log RMSE, over the second half of the run
 };
 
+/// Whether the metric is an error against a reference.
+constexpr bool is_error(BenchMetric metric) {
+  return metric == BenchMetric::kRmse || metric == BenchMetric::kRelmse ||
+         metric == BenchMetric::kRelmseTrim || metric == BenchMetric::kFlip ||
+         metric == BenchMetric::kMeanError;
+}
+
 /// The x axis of curves and comparisons.
 enum class BenchAxis { kPasses, kTime, kEmitted };
 

@@ -53,12 +53,6 @@ const Row& row_of(const Row (&rows)[kCount], const JsonValue& value, const std::
       fmt::format("unknown {} \"{}\", expected one of: {}", what, name, fmt::join(known, ", ")));
 }
 
-bool is_error(BenchMetric metric) {
-  return metric == BenchMetric::kRmse || metric == BenchMetric::kRelmse ||
-         metric == BenchMetric::kRelmseTrim || metric == BenchMetric::kFlip ||
-         metric == BenchMetric::kMeanError;
-}
-
 void check_integrator(const BenchSuite& suite, const std::string& name, const JsonValue& value) {
   if (suite.find_integrator(name) == nullptr)
     value.fail(fmt::format("unknown integrator \"{}\", expected one of the suite's", name));

@@ -5,7 +5,6 @@ namespace nephroid {
 
 namespace {
 
-constexpr double kPiDouble = 3.14159265358979323846;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 /// Rotation by which the path of a point leaves its chord by half a percent of the radius.
 constexpr double kStraightAngle = kPiDouble / 16;

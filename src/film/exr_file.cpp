@@ -54,23 +54,23 @@ class AtomicOutput : public Imf::OStream {
 };
 
 /// Rows of a ZIP block, and number of blocks in memory.
-constexpr int kRowsOfBlock = 16, kBlocksAtOnce = 4;
+constexpr int kRowsOfBlock = 16, kExrBlocksAtOnce = 4;
 
 uint64_t bytes_of_block(int width, size_t channels) {
   return sizeof(float) * kRowsOfBlock * static_cast<uint64_t>(width) * channels;
 }
 
 int rows_at_once(int width, size_t channels) {
-  const bool fit = kBlocksAtOnce * bytes_of_block(width, channels) <= kMaxEncoderBytes / 2;
-  return fit ? kBlocksAtOnce * kRowsOfBlock : kRowsOfBlock;
+  const bool fit = kExrBlocksAtOnce * bytes_of_block(width, channels) <= kMaxEncoderBytes / 2;
+  return fit ? kExrBlocksAtOnce * kRowsOfBlock : kRowsOfBlock;
 }
 
 /// Threads of the library; 0: the calling thread. For each thread it keeps two blocks, packed,
 /// unpacked and sorted.
 int encoder_threads(int width, size_t channels) {
   const uint64_t of_thread = 2 * 3 * bytes_of_block(width, channels);
-  const auto fit = static_cast<int>(
-      std::min<uint64_t>(kBlocksAtOnce, kMaxEncoderBytes / 2 / std::max<uint64_t>(1, of_thread)));
+  const auto fit = static_cast<int>(std::min<uint64_t>(
+      kExrBlocksAtOnce, kMaxEncoderBytes / 2 / std::max<uint64_t>(1, of_thread)));
   return std::min(fit, Imf::globalThreadCount());
 }
 

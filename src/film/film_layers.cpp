@@ -7,7 +7,7 @@
 namespace nephroid {
 namespace {
 
-constexpr int64_t kRowsPerChunk = 16;
+constexpr int64_t kLayerRowsPerChunk = 16;
 
 template <class Triple>
 void put3(const Triple& value, float* out) {
@@ -66,7 +66,7 @@ std::vector<float> layer_pixels(const Film& film, const FilmLayer& layer) {
   const size_t channels = layer.channels.size();
   const size_t row_size = channels * static_cast<size_t>(bounds.width());
   std::vector<float> pixels(row_size * static_cast<size_t>(bounds.height()));
-  parallel_chunks(bounds.height(), kRowsPerChunk, [&](int64_t, int64_t begin, int64_t end) {
+  parallel_chunks(bounds.height(), kLayerRowsPerChunk, [&](int64_t, int64_t begin, int64_t end) {
     for (int64_t row = begin; row < end; ++row) {
       float* out = pixels.data() + row_size * static_cast<size_t>(row);
       for (int x = bounds.x0; x < bounds.x1; ++x, out += channels)

@@ -16,7 +16,7 @@
 namespace nephroid {
 namespace {
 
-constexpr int64_t kRowsPerChunk = 16;
+constexpr int64_t kOutputRowsPerChunk = 16;
 
 void add_layer(std::vector<std::string>& channels, const std::string& layer, const char* letters) {
   for (const char* letter = letters; *letter != '\0'; ++letter)
@@ -106,9 +106,11 @@ uint8_t* put_srgb8(uint8_t* out, Rgb color, const RgbColorSpace* space, float ex
 /// Calls body(y) for each row of the film, rows in parallel.
 template <class Body>
 void for_each_row(const Film& film, const Body& body) {
-  parallel_chunks(film.bounds().height(), kRowsPerChunk, [&](int64_t, int64_t begin, int64_t end) {
-    for (int64_t row = begin; row < end; ++row) body(film.bounds().y0 + static_cast<int>(row));
-  });
+  parallel_chunks(film.bounds().height(), kOutputRowsPerChunk,
+                  [&](int64_t, int64_t begin, int64_t end) {
+                    for (int64_t row = begin; row < end; ++row)
+                      body(film.bounds().y0 + static_cast<int>(row));
+                  });
 }
 
 }  // namespace

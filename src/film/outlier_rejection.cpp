@@ -14,7 +14,7 @@
 namespace nephroid {
 namespace {
 
-constexpr int kRowsPerChunk = 4;
+constexpr int kRejectionRowsPerChunk = 4;
 constexpr int kLevelOfOne = 32;
 constexpr uint64_t kMaxCounted = 255;
 /// Brighter estimates are not held: the film's sums report when they saturate.
@@ -140,7 +140,7 @@ void OutlierRejection::finish_pass(int group, uint64_t estimates, std::span<cons
   std::vector<Pixel>& pixels = pixels_[group];
   const size_t parts = parts_[group];
   const size_t width = width_;
-  parallel_chunks(height_, kRowsPerChunk, [&](int64_t, int64_t begin, int64_t end) {
+  parallel_chunks(height_, kRejectionRowsPerChunk, [&](int64_t, int64_t begin, int64_t end) {
     for (size_t i = begin * width; i < end * width; ++i) {
       Pixel& p = pixels[i];
       for (size_t slot = 0; slot < p.size;) {

@@ -30,8 +30,8 @@ struct Footer {
 };
 
 /// Number of blocks in memory.
-constexpr size_t kBlocksAtOnce = 16;
-using Blocks = std::array<PackedBlock, kBlocksAtOnce>;
+constexpr size_t kStateBlocksAtOnce = 16;
+using Blocks = std::array<PackedBlock, kStateBlocksAtOnce>;
 
 /// The byte range of a block within its section.
 struct Extent {
@@ -61,8 +61,8 @@ class Output {
     StateIndex::Section section{
         name, static_cast<uint32_t>(words), bytes.size(), hash_of(bytes), offset_, {}};
     const size_t blocks = section.block_count();
-    for (size_t first = 0; first < blocks; first += kBlocksAtOnce) {
-      const size_t count = std::min(kBlocksAtOnce, blocks - first);
+    for (size_t first = 0; first < blocks; first += kStateBlocksAtOnce) {
+      const size_t count = std::min(kStateBlocksAtOnce, blocks - first);
       for_each_of(count, [&](size_t i) {
         const Extent extent = extent_of_block(section, first + i);
         pack_block(bytes.subspan(extent.offset, extent.size), section.stride(), blocks_[i]);
@@ -181,8 +181,8 @@ struct StateFile::Input {
   void read_section(const StateIndex::Section& section, std::span<std::byte> into) {
     uint64_t offset = section.offset;
     std::atomic<bool> is_whole = true;
-    for (size_t first = 0; first < section.blocks.size(); first += kBlocksAtOnce) {
-      const size_t count = std::min(kBlocksAtOnce, section.blocks.size() - first);
+    for (size_t first = 0; first < section.blocks.size(); first += kStateBlocksAtOnce) {
+      const size_t count = std::min(kStateBlocksAtOnce, section.blocks.size() - first);
       for (size_t i = 0; i < count; ++i) {
         std::vector<std::byte>& packed = blocks[i].packed;
         packed.resize(section.blocks[first + i]);

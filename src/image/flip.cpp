@@ -18,7 +18,7 @@ namespace nephroid {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
-constexpr int64_t kRowsPerChunk = 8;
+constexpr int64_t kFlipRowsPerChunk = 8;
 
 using Triple = std::array<double, 3>;
 
@@ -49,7 +49,7 @@ Kernel make_kernel(int radius, const F& f) {
 
 template <class Body>
 void for_each_pixel(int width, int height, const Body& body) {
-  parallel_chunks(height, kRowsPerChunk, [&](int64_t, int64_t begin, int64_t end) {
+  parallel_chunks(height, kFlipRowsPerChunk, [&](int64_t, int64_t begin, int64_t end) {
     for (int y = static_cast<int>(begin); y < end; ++y)
       for (int x = 0; x < width; ++x) body(x, y);
   });

@@ -26,7 +26,7 @@ constexpr std::array<char, 3> kLetters = {'R', 'G', 'B'};
 constexpr std::array<std::string_view, 5> kFeatureLayers = {"albedo", "Albedo", "N", "Ns", "P"};
 constexpr std::array<std::string_view, 6> kFeatureChannels = {"Z",    "u",    "v",
                                                               "dzdx", "dzdy", "samples"};
-constexpr int64_t kRowsPerChunk = 16;
+constexpr int64_t kMixRowsPerChunk = 16;
 constexpr float kMaxGain = 1e6f;
 
 /// A layer that is added, and its gain.
@@ -172,7 +172,7 @@ std::vector<float> pixels_of(const Picture& picture, const std::vector<MixedChan
   const size_t in_width = picture.channels.size(), out_width = channels.size();
   const size_t row = static_cast<size_t>(picture.width());
   std::vector<float> pixels(row * static_cast<size_t>(picture.height()) * out_width);
-  parallel_chunks(picture.height(), kRowsPerChunk, [&](int64_t, int64_t begin, int64_t end) {
+  parallel_chunks(picture.height(), kMixRowsPerChunk, [&](int64_t, int64_t begin, int64_t end) {
     for (size_t i = static_cast<size_t>(begin) * row; i < static_cast<size_t>(end) * row; ++i)
       for (size_t c = 0; c < out_width; ++c) {
         double sum = 0;

@@ -15,7 +15,7 @@
 namespace nephroid {
 namespace {
 
-constexpr uint32_t kMagic = 20000630;
+constexpr uint32_t kExrMagic = 20000630;
 constexpr uint32_t kManyParts = 0x1000;
 constexpr size_t kLongestName = 255;
 /// No real picture is compressed so well; small ones are always accepted.
@@ -51,7 +51,7 @@ class Header {
         buffers_(threads > 0 ? 2 * static_cast<uint64_t>(threads) : 1) {}
 
   std::string fault() {
-    if (number() != kMagic || !file_) return "";
+    if (number() != kExrMagic || !file_) return "";
     const bool many = (number() & kManyParts) != 0;
     for (;;) {
       size_t attributes = 0;

@@ -42,7 +42,7 @@ constexpr Format kFirstBytes[] = {
     {"\x1f\x8b", "a gzip file", " (packed scenes have names that end in .gz)"},
 };
 
-constexpr Format kNames[] = {
+constexpr Format kFirstWords[] = {
     {".usd", "a USD scene", kScene},         {".usda", "a USD scene", kScene},
     {".usdc", "a binary USD scene", kScene}, {".usdz", "a USD scene", kScene},
     {".blend", "a Blender file", kScene},    {".fbx", "an FBX scene", kScene},
@@ -52,21 +52,21 @@ constexpr Format kNames[] = {
     {".exr", "no OpenEXR picture", kImage},
 };
 
-bool is_blank(char c) {
+bool is_space_or_line_end(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
 /// The text from its first word on, without a byte order mark and without "#" comments.
 std::string_view from_first_word(std::string_view text) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  while (!text.empty() && (is_blank(text[0]) || text[0] == '#'))
+  while (!text.empty() && (is_space_or_line_end(text[0]) || text[0] == '#'))
     text.remove_prefix(text[0] == '#' ? std::min(text.find('\n'), text.size()) : 1);
   return text;
 }
 
 /// True if the first word is one of OBJ's, with which no scene begins.
 bool is_obj(std::string_view text) {
-  const auto is_end = [](char c) { return is_blank(c); };
+  const auto is_end = [](char c) { return is_space_or_line_end(c); };
   const auto* const end = std::find_if(text.begin(), text.end(), is_end);
   const std::string_view word = text.substr(0, static_cast<size_t>(end - text.begin()));
   constexpr std::string_view kWords[] = {"v", "vt", "vn", "f", "o", "g", "s", "mtllib", "usemtl"};
@@ -95,7 +95,7 @@ Format format_of(std::string_view bytes, const std::string& path) {
   if (is_obj(text)) return {"", "a Wavefront OBJ mesh", kObj};
   // Directives begin with a capital letter: such a file may be a scene whatever its name.
   if (std::isupper(static_cast<unsigned char>(text[0]))) return {"", "", ""};
-  for (const Format& format : kNames)
+  for (const Format& format : kFirstWords)
     if (has_suffix(path, std::string(format.mark))) return format;
   return {"", "", ""};
 }

@@ -31,14 +31,14 @@ std::string_view take_word(std::string_view& text) {
   return word;
 }
 
-std::string title(const Parameter& parameter) {
+std::string title_with_type(const Parameter& parameter) {
   return "parameter \"" + parameter.name + "\" has type \"" + parameter.type + "\"";
 }
 
 [[noreturn]] void wrong_value(const Parameter& parameter, const Token& token,
                               const char* expected) {
-  throw SceneError(token.where(),
-                   title(parameter) + ", expected " + expected + ", found " + describe(token));
+  throw SceneError(token.where(), title_with_type(parameter) + ", expected " + expected +
+                                      ", found " + describe(token));
 }
 
 const char* expected_values(Values values) {
@@ -59,12 +59,12 @@ const char* expected_values(Values values) {
 
 /// Throws the reason why `token` is not a valid number for the parameter.
 [[noreturn]] void wrong_number(const Parameter& parameter, const Token& token, bool integer) {
-  const double value =
-      number_from(token, (integer ? "an integer (" : "a number (") + title(parameter) + ")");
+  const double value = number_from(
+      token, (integer ? "an integer (" : "a number (") + title_with_type(parameter) + ")");
   const char* const reason = !integer                     ? " does not fit a 32-bit float"
                              : value != std::floor(value) ? " is not an integer"
                                                           : " does not fit a 32-bit integer";
-  throw SceneError(token.where(), title(parameter) + ", but " + describe(token) + reason);
+  throw SceneError(token.where(), title_with_type(parameter) + ", but " + describe(token) + reason);
 }
 
 /// The number of a token, checked to fit a float or, for integers, a 32-bit int.
@@ -112,10 +112,10 @@ void add_value(Parameter& parameter, Values values, const Token& token) {
 void check_count(const Parameter& parameter, const ParameterType& type) {
   const size_t numbers = parameter.numbers.size();
   if (numbers + parameter.strings.size() + parameter.bools.size() == 0)
-    throw SceneError(parameter.where, title(parameter) + ", but no values");
+    throw SceneError(parameter.where, title_with_type(parameter) + ", but no values");
   if (numbers % type.numbers_per_item != 0) {
-    throw SceneError(parameter.where, title(parameter) + " and " + counted(numbers, "number") +
-                                          ", expected a multiple of " +
+    throw SceneError(parameter.where, title_with_type(parameter) + " and " +
+                                          counted(numbers, "number") + ", expected a multiple of " +
                                           std::to_string(type.numbers_per_item));
   }
 }
@@ -146,7 +146,7 @@ void read_parameter_values(TokenStream& tokens, Parameter& parameter) {
   const ParameterType& type = *find_parameter_type(parameter.type);
   const Token* token = &tokens.next();
   if (token->kind == Token::Kind::kEnd)
-    throw SceneError(parameter.where, title(parameter) + ", but no values");
+    throw SceneError(parameter.where, title_with_type(parameter) + ", but no values");
   if (token->kind != Token::Kind::kOpen) {
     add_value(parameter, type.values, *token);
   } else {

@@ -8,7 +8,7 @@ namespace {
 
 using Values = ParameterType::Values;
 
-constexpr std::array kTypes = {
+constexpr std::array kParameterTypes = {
     ParameterType{"integer", "integer", Values::kIntegers, 1},
     ParameterType{"float", "float", Values::kNumbers, 1},
     ParameterType{"point2", "point2", Values::kNumbers, 2},
@@ -33,14 +33,15 @@ constexpr std::array kTypes = {
 }  // namespace
 
 const ParameterType* find_parameter_type(std::string_view spelling) {
-  const auto* const found = std::find_if(
-      kTypes.begin(), kTypes.end(), [&](const auto& type) { return spelling == type.spelling; });
-  return found == kTypes.end() ? nullptr : found;
+  const auto* const found =
+      std::find_if(kParameterTypes.begin(), kParameterTypes.end(),
+                   [&](const auto& type) { return spelling == type.spelling; });
+  return found == kParameterTypes.end() ? nullptr : found;
 }
 
 std::string list_of_parameter_types() {
   std::string list;
-  for (const ParameterType& type : kTypes) {
+  for (const ParameterType& type : kParameterTypes) {
     const std::string_view name = type.name;
     if (type.spelling != name || name == "color") continue;
     list += (list.empty() ? "" : ", ") + std::string(type.name);

@@ -62,13 +62,13 @@ namespace {
 
 using v3::Parameters;
 
-struct TypeRow {
+struct RenamedType {
   const char* directive;
   const char* v3;
   const char* v4;
 };
 /// Types with another name, except materials.
-constexpr TypeRow kTypes[] = {
+constexpr RenamedType kRenamedTypes[] = {
     {"Film", "image", "rgb"},
     {"Camera", "environment", "spherical"},
     {"Sampler", "lowdiscrepancy", "paddedsobol"},
@@ -260,7 +260,7 @@ std::string V3Upgrade::texture_values(const std::string& type, const SourceLocat
 }
 
 void V3Upgrade::upgrade_types(std::string_view name, DirectiveDescription& directive) {
-  for (const TypeRow& row : kTypes) {
+  for (const RenamedType& row : kRenamedTypes) {
     if (name != row.directive) continue;
     // Media have their type in a parameter.
     Parameter* const parameter =

@@ -10,6 +10,7 @@
 #include "input/mitsuba/mitsuba_reader.h"
 #include "input/obj/obj_scene.h"
 #include "input/pbrt_parser.h"
+#include "input/spelling.h"
 #include "input/staging/staging.h"
 
 namespace nephroid {
@@ -51,12 +52,6 @@ void warn_of_foreign_options(const SceneFormat& format, const std::string& path,
   if (!options.defines.empty() && format.read != read_mitsuba) warn("--define", "Mitsuba");
   if (options.solid_glass && format.read != read_gltf && format.read != read_obj_scene)
     warn("--solid-glass", "glTF and OBJ");
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 /// Warns of choices of the user among things that the file does not have. Formats that have them

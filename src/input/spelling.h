@@ -1,4 +1,5 @@
-// "Did you mean ...?" for misspelt names. It must not know what is named.
+// "Did you mean ...?" for misspelt names, and names in small letters. It must not know what is
+// named.
 #pragma once
 
 #include <string>
@@ -6,6 +7,9 @@
 #include <vector>
 
 namespace nephroid {
+
+/// With the letters A to Z small.
+std::string lower_case(std::string_view word);
 
 /// `, did you mean "X"?` for a candidate. It is another name of `word` (other_names.h; `kind` is
 /// the kind of the named thing, such as "light"), or else the nearest by edit distance, ignoring

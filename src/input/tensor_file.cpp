@@ -13,20 +13,20 @@
 namespace nephroid {
 namespace {
 
-struct TypeRow {
+struct TensorTypeRow {
   const char* name;
   uint64_t bytes;
 };
 
-constexpr TypeRow kTypes[] = {{"nothing", 0}, {"uint8", 1},   {"int8", 1},    {"uint16", 2},
-                              {"int16", 2},   {"uint32", 4},  {"int32", 4},   {"uint64", 8},
-                              {"int64", 8},   {"float16", 2}, {"float32", 4}, {"float64", 8}};
+constexpr TensorTypeRow kTensorTypes[] = {
+    {"nothing", 0}, {"uint8", 1},  {"int8", 1},  {"uint16", 2},  {"int16", 2},   {"uint32", 4},
+    {"int32", 4},   {"uint64", 8}, {"int64", 8}, {"float16", 2}, {"float32", 4}, {"float64", 8}};
 
-const TypeRow& row_of(TensorType type) {
-  return kTypes[static_cast<size_t>(type)];
+const TensorTypeRow& row_of(TensorType type) {
+  return kTensorTypes[static_cast<size_t>(type)];
 }
 
-constexpr std::string_view kMagic("tensor_file\0", 12);
+constexpr std::string_view kTensorMagic("tensor_file\0", 12);
 
 /// The unsigned number with these bytes, least significant first.
 uint64_t little_endian(std::string_view bytes) {
@@ -84,9 +84,9 @@ TensorField read_field(const TensorFile& file, TableReader& table, std::string_v
   const uint64_t dimensions = table.number(2, what);
   const uint64_t type = table.number(1, what);
   const uint64_t offset = table.number(8, what);
-  if (type < 1 || type >= std::size(kTypes))
+  if (type < 1 || type >= std::size(kTensorTypes))
     file.fail(what + " has the unknown type " + std::to_string(type) + ", expected 1 to " +
-              std::to_string(std::size(kTypes) - 1));
+              std::to_string(std::size(kTensorTypes) - 1));
   field.type = static_cast<TensorType>(type);
   const std::string_view extents = table.take(dimensions * 8, what);
   for (size_t i = 0; i < extents.size(); i += 8)
@@ -125,9 +125,9 @@ TensorFile TensorFile::read(SceneFiles& files, const std::string& path,
 TensorFile::TensorFile(std::string bytes, std::string name, SourceLocation wanted_by)
     : bytes_(std::move(bytes)), name_(std::move(name)), wanted_by_(std::move(wanted_by)) {
   const std::string_view all = bytes_;
-  if (all.substr(0, kMagic.size()) != kMagic)
+  if (all.substr(0, kTensorMagic.size()) != kTensorMagic)
     fail("it does not start with \"tensor_file\", expected a tensor file");
-  TableReader table(*this, all.substr(kMagic.size()));
+  TableReader table(*this, all.substr(kTensorMagic.size()));
   const std::string_view version = table.take(2, "the version");
   if (version[0] != 1 || version[1] != 0)
     fail("it has version " + std::to_string(static_cast<uint8_t>(version[0])) + "." +

@@ -35,7 +35,7 @@ std::optional<Mat44d> rotation_matrix(double degrees, const Vec3d& axis) {
   const Vec3d& a = *unit;
   // Whole quarter turns are applied separately, so that they are exact.
   int quarters = 0;
-  const double rest = std::remquo(degrees, 90.0, &quarters) * (3.14159265358979323846 / 180.0);
+  const double rest = std::remquo(degrees, 90.0, &quarters) * kDegree;
   double s = std::sin(rest), c = std::cos(rest);
   for (int turn = 0; turn < (quarters & 3); ++turn) {
     const double cosine = c;

@@ -7,7 +7,7 @@
 namespace nephroid {
 namespace {
 
-constexpr const char* kHead =
+constexpr const char* kGltfHead =
     R"(# glTF 2.0
 
 Made from the tables of the importer by `tools/update_docs`; do not edit.
@@ -52,7 +52,7 @@ std::string table(const char* heading, std::span<const gltf::Feature> features, 
 }  // namespace
 
 std::string gltf_support_markdown() {
-  return kHead + table("The format", gltf::feature_table(), "") + "\n" +
+  return kGltfHead + table("The format", gltf::feature_table(), "") + "\n" +
          table("Extensions", gltf::extension_table(), "`");
 }
 

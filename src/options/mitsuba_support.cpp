@@ -10,7 +10,7 @@ namespace {
 using mitsuba::Plugin;
 using mitsuba::PluginSupport;
 
-constexpr const char* kHead = R"(# Mitsuba scenes
+constexpr const char* kMitsubaHead = R"(# Mitsuba scenes
 
 Made from the tables of the importer by `tools/update_docs`; do not edit.
 
@@ -33,7 +33,7 @@ Mitsuba 0.6 (`intIOR`) or as in Mitsuba 3 (`int_ior`), in scenes of any version.
 - The scene's integrator is used with `--integrator scene` only; its `max_depth` always counts.
 )";
 
-constexpr const char* kTail = R"(
+constexpr const char* kMitsubaTail = R"(
 ## Conventions
 
 | what | Mitsuba | here |
@@ -81,7 +81,7 @@ std::string row_of(const Plugin& plugin) {
 }  // namespace
 
 std::string mitsuba_support_markdown() {
-  std::string page = kHead, tag;
+  std::string page = kMitsubaHead, tag;
   for (const Plugin& plugin : mitsuba::plugin_tables()) {
     if (tag != plugin.tag) {
       tag = plugin.tag;
@@ -89,7 +89,7 @@ std::string mitsuba_support_markdown() {
     }
     page += row_of(plugin);
   }
-  return page + kTail;
+  return page + kMitsubaTail;
 }
 
 }  // namespace nephroid

@@ -4,11 +4,12 @@
 
 #include "input/obj/ignored_lines.h"
 #include "input/obj/mtl_keywords.h"
+#include "options/table_cell.h"
 
 namespace nephroid {
 namespace {
 
-constexpr const char* kHead = R"(# OBJ and MTL files
+constexpr const char* kObjHead = R"(# OBJ and MTL files
 
 Made from the tables of the importer by `tools/update_docs`; do not edit.
 
@@ -48,26 +49,20 @@ const char* word_of(Support support) {
   return "refused";
 }
 
-/// The text of a table cell, with bars escaped: they would end the cell.
-std::string cell(std::string text) {
-  for (size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
-    text.insert(at, "\\");
-  return text;
-}
-
 std::string table_of(const char* heading, FormatParameters rows) {
   std::string text = fmt::format(
       "\n## {}\n\n| keyword | values | default | |\n| --- | --- | --- | --- |\n", heading);
   for (const FormatParameter& row : rows)
-    text += fmt::format("| `{}` | {} | {} | {}{}{} |\n", row.name, cell(row.type), row.fallback,
-                        word_of(row.support), *row.note ? ": " : "", cell(row.note));
+    text +=
+        fmt::format("| `{}` | {} | {} | {}{}{} |\n", row.name, table_cell(row.type), row.fallback,
+                    word_of(row.support), *row.note ? ": " : "", table_cell(row.note));
   return text;
 }
 
 }  // namespace
 
 std::string obj_support_markdown() {
-  return kHead + table_of("Geometry", obj_keywords()) +
+  return kObjHead + table_of("Geometry", obj_keywords()) +
          table_of("Materials, as \"principled\"", mtl_keywords());
 }
 

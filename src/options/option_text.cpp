@@ -8,6 +8,7 @@
 #include "integrator/presets/estimator_table.h"
 #include "integrator/presets/route_presets.h"
 #include "options/options.h"
+#include "options/table_cell.h"
 
 namespace nephroid {
 namespace {
@@ -114,13 +115,6 @@ bool takes_presets(const std::string& command) {
                      [](const OptionDescription* o) { return std::string("--routes") == o->name; });
 }
 
-/// The text of a table cell, with bars escaped: they would end the cell.
-std::string cell(std::string text) {
-  for (size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
-    text.insert(at, "\\");
-  return text;
-}
-
 }  // namespace
 
 std::string program_help() {
@@ -212,23 +206,25 @@ std::string options_markdown() {
                         usage_of(command.name));
     text += "| option | unit | default | meaning |\n| --- | --- | --- | --- |\n";
     for (const OptionDescription* option : options_of(command.name))
-      text += fmt::format("| `{}` | {} | {} | {} |\n", cell(signature(*option)), cell(option->unit),
-                          cell(option->default_text), cell(option->help));
+      text += fmt::format("| `{}` | {} | {} | {} |\n", table_cell(signature(*option)),
+                          table_cell(option->unit), table_cell(option->default_text),
+                          table_cell(option->help));
     if (!takes_settings(command.name)) continue;
     text += "\nKeys of `-D`, over the scene's Integrator line, which is over the defaults:\n\n";
     text += "| key | unit | default | meaning |\n| --- | --- | --- | --- |\n";
     for (const IntegratorSetting& setting : integrator_settings())
-      text += fmt::format("| `{}={}` | {} | {} | {} |\n", setting.key, cell(setting.value),
-                          cell(setting.unit), cell(setting.default_text), cell(setting.help));
+      text += fmt::format("| `{}={}` | {} | {} | {} |\n", setting.key, table_cell(setting.value),
+                          table_cell(setting.unit), table_cell(setting.default_text),
+                          table_cell(setting.help));
   }
   text +=
       "\n## Routes\n\nPresets of `--routes` ([routes.md](routes.md) has their expressions):\n\n";
   text += "| preset | meaning |\n| --- | --- |\n";
   for (const RoutePreset& preset : route_presets())
-    text += fmt::format("| `{}` | {} |\n", preset.name, cell(preset.help));
+    text += fmt::format("| `{}` | {} |\n", preset.name, table_cell(preset.help));
   text += "\nEstimators of `--route`:\n\n| estimator | meaning |\n| --- | --- |\n";
   for (const EstimatorTraits* estimator : estimator_traits())
-    text += fmt::format("| `{}` | {} |\n", estimator->name, cell(estimator->help));
+    text += fmt::format("| `{}` | {} |\n", estimator->name, table_cell(estimator->help));
   text +=
       "\n## Without a command\n\n`nephroid --help`, `nephroid --help-all` and `nephroid "
       "--version`.\n";

@@ -7,6 +7,7 @@
 #include "input/directives.h"
 #include "input/option_directive.h"
 #include "integrator/presets/integrator_table.h"
+#include "options/table_cell.h"
 #include "scene/camera/camera_table.h"
 #include "scene/film_description.h"
 #include "scene/light/light_table.h"
@@ -21,7 +22,7 @@
 namespace nephroid {
 namespace {
 
-constexpr const char* kHead =
+constexpr const char* kPbrtHead =
     R"(# What of the pbrt-v4 format is rendered
 
 Made from the tables of the scene loader by `tools/update_docs`; do not edit.
@@ -42,7 +43,7 @@ others is warned of, too. Values of a wrong type or out of range are errors.
 
 )";
 
-constexpr const char* kTail = R"(
+constexpr const char* kPbrtTail = R"(
 ## Differences by intent
 
 - `maxdepth` counts the scattering events of the whole path, camera and light side together, in every
@@ -71,13 +72,6 @@ constexpr const char* kTail = R"(
 - `Option "disablepixeljitter"` does not concern routes of `lighttrace`, `mlt` and `pssmlt`, nor what
   `photons+light`, `bdpt` and `vcm` connect to the camera: that light is always spread by the pixel filter.
 )";
-
-/// The text of a table cell, with bars escaped: they would end the cell.
-std::string cell(std::string text) {
-  for (size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
-    text.insert(at, "\\");
-  return text;
-}
 
 const char* word_for(Support support) {
   switch (support) {
@@ -112,8 +106,8 @@ std::string owners(const std::vector<FormatType>& types, const FormatParameters&
 
 std::string parameter_cells(const FormatParameter& p, Support least) {
   const Support support = std::max(p.support, least);
-  return fmt::format("`{}` | {} | {} | {} | {}", p.name, cell(p.type), cell(p.fallback),
-                     cell(p.unit), cell(with_note(word_for(support), p.note)));
+  return fmt::format("`{}` | {} | {} | {} | {}", p.name, table_cell(p.type), table_cell(p.fallback),
+                     table_cell(p.unit), table_cell(with_note(word_for(support), p.note)));
 }
 
 std::string kind_section(const FormatKind& kind) {
@@ -122,7 +116,7 @@ std::string kind_section(const FormatKind& kind) {
   text += "| type | |\n| --- | --- |\n";
   for (const FormatType& type : kind.types)
     text += fmt::format("| `\"{}\"` | {} |\n", type.name,
-                        cell(with_note(word_for(type.support), type.note)));
+                        table_cell(with_note(word_for(type.support), type.note)));
   text += "\n| of | parameter | type | default | unit | |\n| --- | --- | --- | --- | --- | --- |\n";
   std::vector<const FormatParameter*> written;
   for (const FormatType& type : kind.types) {
@@ -181,11 +175,12 @@ std::vector<FormatKind> format_kinds() {
 }
 
 std::string scene_support_markdown() {
-  std::string text = kHead;
+  std::string text = kPbrtHead;
   text +=
       "## Directives\n\nAll are rendered.\n\n| directive | arguments | |\n| --- | --- | --- |\n";
   for (const FormatDirective& d : format_directives())
-    text += fmt::format("| `{}` | {} | {} |\n", d.name, cell(d.arguments), cell(d.note));
+    text +=
+        fmt::format("| `{}` | {} | {} |\n", d.name, table_cell(d.arguments), table_cell(d.note));
   text +=
       "\n## Options\n\n`Option`. Names are compared without case, \"-\" and \"_\". Of bools only "
       "true is warned of.\n\n| option | type | default | unit | |\n| --- | --- | --- | --- | --- "
@@ -193,7 +188,7 @@ std::string scene_support_markdown() {
   for (const FormatParameter& option : format_options())
     text += fmt::format("| {} |\n", parameter_cells(option, Support::kRendered));
   for (const FormatKind& kind : format_kinds()) text += kind_section(kind);
-  return text + kTail;
+  return text + kPbrtTail;
 }
 
 }  // namespace nephroid

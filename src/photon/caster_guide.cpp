@@ -12,15 +12,15 @@ namespace {
 
 constexpr size_t kMaxPlaces = CasterCones::kMaxCones / 2;
 /// [G8] Weight of all balls that enclose several places together, over that of one place's ball.
-constexpr float kShareAround = 0.125f;
+constexpr float kCasterShareAround = 0.125f;
 /// Smallest radius of a ball, over the scene's radius.
-constexpr float kSmallest = 1e-4f;
+constexpr float kSmallestCasterBall = 1e-4f;
 /// A ball that covers much of a vertex's sky is no use to guide to.
 constexpr float kMaxSine2 = 0.9f;
 /// Lower bound of a BSDF's density towards a ball that is partly in its reach.
 constexpr float kMinDensity = 0.1f / kPi;
 /// A single place gets a second ball if that one is wider by this factor.
-constexpr float kWider = 1.05f;
+constexpr float kCasterWider = 1.05f;
 /// Attempts until a sampled direction is inside of its cone in spite of rounding.
 constexpr int kMaxTries = 64;
 
@@ -80,7 +80,7 @@ CasterGuide::CasterGuide(std::span<const UsefulStart> met, float scene_radius) {
   const auto add = [&](const StartTree::Crowd& crowd, float extent, float share) {
     // Room for points not found yet, most where few have been.
     const float room = 1.05f + 0.5f / std::sqrt(static_cast<float>(crowd.end - crowd.begin));
-    const float radius = std::max(extent * room, kSmallest * scene_radius);
+    const float radius = std::max(extent * room, kSmallestCasterBall * scene_radius);
     balls_.push_back(
         {crowd.center(), radius, share * static_cast<float>(std::sqrt(crowd.weight)) / radius});
   };
@@ -93,10 +93,10 @@ CasterGuide::CasterGuide(std::span<const UsefulStart> met, float scene_radius) {
   for (const StartTree::Crowd& leaf : tree.leaves()) add(leaf, farthest_of(leaf), 1);
   places_ = balls_.size();
   for (const StartTree::Crowd& crowd : tree.inner())
-    add(crowd, crowd.half_diagonal(), kShareAround / static_cast<float>(tree.inner().size()));
+    add(crowd, crowd.half_diagonal(), kCasterShareAround / static_cast<float>(tree.inner().size()));
   const StartTree::Crowd& only = tree.leaves()[0];
-  if (tree.inner().empty() && only.half_diagonal() > kWider * farthest_of(only))
-    add(only, only.half_diagonal(), kShareAround);
+  if (tree.inner().empty() && only.half_diagonal() > kCasterWider * farthest_of(only))
+    add(only, only.half_diagonal(), kCasterShareAround);
 }
 
 CasterCones CasterGuide::at(const WalkVertex& v, ClassMask among) const {

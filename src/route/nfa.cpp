@@ -9,14 +9,15 @@
 
 namespace nephroid {
 namespace {
-constexpr size_t kMaxStates = 8192;
+constexpr size_t kMaxNfaStates = 8192;
 }
 
 int Nfa::new_state(const State& state, const ExpressionSource& source) {
-  if (states.size() >= kMaxStates)
+  if (states.size() >= kMaxNfaStates)
     throw expression_error(source, source.column,
                            "the expressions are too long, expected at most " +
-                               std::to_string(kMaxStates) + " places with repetitions written out");
+                               std::to_string(kMaxNfaStates) +
+                               " places with repetitions written out");
   states.push_back(state);
   return static_cast<int>(states.size()) - 1;
 }

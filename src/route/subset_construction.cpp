@@ -10,7 +10,7 @@
 namespace nephroid {
 namespace {
 
-constexpr size_t kMaxStates = 65535;
+constexpr size_t kMaxDfaStates = 65535;
 constexpr size_t kMaxPlaces = size_t{1} << 22;  // in all states together
 
 class SubsetConstruction {
@@ -110,7 +110,7 @@ class SubsetConstruction {
     if (is_new) {
       states_.push_back(at);
       places_ += places;
-      if (states_.size() > kMaxStates || places_ > kMaxPlaces)
+      if (states_.size() > kMaxDfaStates || places_ > kMaxPlaces)
         throw UsageError("the routes are too complex: their automaton has more than " +
                          std::to_string(states_.size() - 1) +
                          " states, expected expressions with fewer counted repetitions");

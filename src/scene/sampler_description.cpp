@@ -23,7 +23,7 @@ constexpr FormatParameter kStratified[] = {
     {"bool", "jitter", "true", "", kOwnPoints, Support::kNotNeeded},
 };
 
-constexpr FormatType kTable[] = {
+constexpr FormatType kSamplerTable[] = {
     {"halton", {kPixelSamples, kPermuteDigits, kSeed}},
     {"independent", {kFewPixelSamples, kSeed}},
     {"paddedsobol", {kPixelSamples, kFastOwen, kSeed}},
@@ -36,7 +36,7 @@ constexpr FormatType kTable[] = {
 }  // namespace
 
 std::vector<FormatType> sampler_types() {
-  return format_types(kTable);
+  return format_types(kSamplerTable);
 }
 
 SamplerDescription read_sampler(const std::optional<DirectiveDescription>& sampler, int seed,
@@ -46,15 +46,15 @@ SamplerDescription read_sampler(const std::optional<DirectiveDescription>& sampl
   if (!sampler) return result;
   const ParameterSet& p = sampler->parameters;
   const std::string& type = sampler->type;
-  const FormatType* row = find_row(kTable, type);
+  const FormatType* row = find_row(kSamplerTable, type);
   if (!row) {
     std::vector<std::string> names;
-    for (const FormatType& known : kTable) names.emplace_back(known.name);
+    for (const FormatType& known : kSamplerTable) names.emplace_back(known.name);
     const std::string meant = did_you_mean(type, names);
     diagnostics.warn_of_unknown_name(
         p.where, "unknown sampler \"" + type + "\"" +
                      (meant.empty() ? ", only its number of samples is taken" : meant));
-    row = find_row(kTable, "zsobol");
+    row = find_row(kSamplerTable, "zsobol");
   }
   const bool stratified = type == "stratified";
   const int64_t x = stratified ? p.get_int("xsamples", 4)

@@ -22,11 +22,11 @@ void take_coordinate_system(const Parameter& option, SceneOptions& options) {
 }
 
 /// Options that change images; input/option_directive.cpp has the names of all options.
-struct Row {
+struct OptionRow {
   const char* name;
   void (*take)(const Parameter&, SceneOptions&);
 };
-constexpr Row kTable[] = {
+constexpr OptionRow kOptionTable[] = {
     {"disablepixeljitter", [](const Parameter& p, SceneOptions& o) { o.pixel_jitter = !is_on(p); }},
     {"disablewavelengthjitter",
      [](const Parameter& p, SceneOptions& o) { o.wavelength_jitter = !is_on(p); }},
@@ -62,7 +62,7 @@ constexpr FormatType kAccelerators[] = {
 SceneOptions read_scene_options(const SceneDescription& description, Diagnostics& diagnostics) {
   SceneOptions options;
   for (const Parameter& option : description.options) {
-    for (const Row& row : kTable)
+    for (const OptionRow& row : kOptionTable)
       if (option.name == row.name) row.take(option, options);
     for (const FormatParameter& known : format_options())
       if (option.name == known.name && known.support == Support::kWarned &&

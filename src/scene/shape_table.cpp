@@ -293,10 +293,10 @@ constexpr FormatParameter kCurve[] = {
     {"integer", "splitdepth", "3", "", "curves are divided as it is needed", Support::kNotNeeded},
 };
 
-struct Row : FormatType {
+struct ShapeRow : FormatType {
   std::vector<ShapePtr> (*make)(const Context&);
 };
-constexpr Row kTable[] = {
+constexpr ShapeRow kShapeTable[] = {
     {{"trianglemesh", {kVertices, kTriangles, kAttributes, kEvery}}, triangle_mesh},
     {{"plymesh", {kPly, kEvery}}, ply_mesh},
     {{"bilinearmesh", {kVertices, kPatches, kAttributes, kEvery}}, bilinear_mesh},
@@ -314,11 +314,11 @@ constexpr Row kTable[] = {
 }  // namespace
 
 std::vector<FormatType> shape_types() {
-  return format_types(kTable);
+  return format_types(kShapeTable);
 }
 
 void report_unused_parameters(const ShapeDescription& description, Diagnostics& diagnostics) {
-  if (const Row* row = find_row(kTable, description.type))
+  if (const ShapeRow* row = find_row(kShapeTable, description.type))
     description.parameters.report_unused("shape \"" + description.type + "\"", *row, diagnostics);
 }
 
@@ -347,7 +347,7 @@ std::vector<ShapePtr> make_shapes(std::span<const ShapeDescription> alike, Scene
                         transform,
                         description.reverse_orientation != transform.swaps_handedness(),
                         displacement};
-  return row_of(kTable, "shape", description.type, description.where).make(context);
+  return row_of(kShapeTable, "shape", description.type, description.where).make(context);
 }
 
 }  // namespace nephroid

@@ -42,7 +42,7 @@ bool has_parameter(const std::string& camera_type, const char* name) {
   return false;
 }
 
-double value_of(const ParameterSet& parameters, const PoseParameter& wanted) {
+double pose_value(const ParameterSet& parameters, const PoseParameter& wanted) {
   const Parameter* parameter = parameters.peek(wanted.name);
   return parameter != nullptr && parameter->numbers.size() == 1 ? parameter->numbers[0]
                                                                 : wanted.fallback;
@@ -117,8 +117,8 @@ void check_values(const CameraPose& pose, const ParameterSet& parameters) {
     refuse(fmt::format("the lens radius is {:g}, expected 0 or more", *pose.lens_radius));
   if (pose.focal_distance && !(static_cast<float>(*pose.focal_distance) > 0))
     refuse(fmt::format("the focal distance is {:g}, expected more than 0", *pose.focal_distance));
-  const auto open = static_cast<float>(value_of(parameters, kShutterOpen)),
-             close = static_cast<float>(value_of(parameters, kShutterClose));
+  const auto open = static_cast<float>(pose_value(parameters, kShutterOpen)),
+             close = static_cast<float>(pose_value(parameters, kShutterClose));
   if ((pose.shutter_open || pose.shutter_close) && !(close > open))
     refuse(fmt::format("the shutter opens at {:g} and closes at {:g}, expected it to close later",
                        open, close));
@@ -131,7 +131,7 @@ void set_values(CameraDescription* camera, const CameraPose& pose) {
     if (!has_parameter(camera->type, wanted->name))
       refuse(fmt::format("a camera of type \"{}\" has no \"{}\", expected no value for it",
                          camera->type, wanted->name));
-    if (value_of(camera->parameters, *wanted) == *value) continue;
+    if (pose_value(camera->parameters, *wanted) == *value) continue;
     ParameterList list(camera->parameters.where);
     list.add_float(wanted->name, *value);
     replace_parameter(&camera->parameters, list.take().list.front());
@@ -154,7 +154,7 @@ CameraPose camera_pose(const SceneDescription& description, const Scene& scene) 
   CameraPose pose;
   for (const PoseParameter* wanted : kParameters)
     if (has_parameter(camera.type, wanted->name))
-      pose.*wanted->value = value_of(camera.parameters, *wanted);
+      pose.*wanted->value = pose_value(camera.parameters, *wanted);
   pose.eye = frame.eye;
   pose.target = frame.eye + frame.forward * target_distance(frame, pose, scene.sphere);
   pose.up = plain_up(frame);

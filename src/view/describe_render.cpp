@@ -9,6 +9,7 @@
 #include "film/film_layers.h"
 #include "image/mix.h"
 #include "scene/camera/camera.h"
+#include "view/frame.h"
 
 namespace nephroid {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 /// Layers of lamps by route are not mixed on the page: those of lamps and of routes are.
 LayerKind kind_of(const std::string& name, const FilmLayout& layout,
                   const std::vector<LayerByLight>& lights) {
-  if (name == "picture") return LayerKind::kPicture;
+  if (name == kPictureLayer) return LayerKind::kPicture;
   if (std::ranges::find(layout.routes, name) != layout.routes.end()) return LayerKind::kRoute;
   const auto light = std::ranges::find(lights, name, &LayerByLight::layer);
   if (light != lights.end() && light->route.empty()) return LayerKind::kLight;

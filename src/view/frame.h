@@ -16,6 +16,8 @@ namespace nephroid {
 
 /// The edge of a tile in pixels; those at the right and lower edge of a picture are smaller.
 inline constexpr int kTileSize = 64;
+/// The layer that is the picture itself.
+inline constexpr const char* kPictureLayer = "picture";
 
 /// A layer in half floats: value = half * scale, rows from the top, channels interleaved. Colours
 /// are linear sRGB.

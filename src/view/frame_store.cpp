@@ -5,7 +5,6 @@ namespace {
 
 /// Layers that nobody has asked for so long are not made any more.
 constexpr double kSecondsOfInterest = 10;
-constexpr const char* kPictureLayer = "picture";
 
 }  // namespace
 

@@ -14,7 +14,7 @@
 namespace nephroid {
 namespace {
 
-constexpr const char *kPictureLayer = "picture", *kSamples = "samples";
+constexpr const char* kSamples = "samples";
 
 /// A layer's channels in the file.
 std::vector<std::string> channels_of(const LiveLayer& layer) {

@@ -13,7 +13,7 @@
 namespace nephroid {
 namespace {
 
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
 constexpr int kMaxEdge = 32768;  ///< pixels
 constexpr LayerChoice kLayerChoices[] = {LayerChoice::kRoutes, LayerChoice::kLights,
@@ -23,25 +23,25 @@ constexpr LayerChoice kLayerChoices[] = {LayerChoice::kRoutes, LayerChoice::kLig
 class Members {
  public:
   explicit Members(std::string_view body) {
-    json_ = Json::parse(body, nullptr, false);
+    json_ = ParsedJson::parse(body, nullptr, false);
     if (!json_.is_object()) throw UsageError("the request is no JSON object");
   }
 
   std::optional<double> number(const char* name, double min, double max) {
-    const std::optional<Json> value = take(name);
+    const std::optional<ParsedJson> value = take(name);
     if (!value) return std::nullopt;
     return number_of(*value, name, min, max);
   }
 
   std::optional<double> number_or_null(const char* name, double min, double max) {
-    const std::optional<Json> value = take(name);
+    const std::optional<ParsedJson> value = take(name);
     if (!value) return std::nullopt;
     return value->is_null() ? 0 : number_of(*value, name, min, max);
   }
 
   template <size_t N>
   std::optional<std::array<double, N>> numbers(const char* name, double min, double max) {
-    const std::optional<Json> value = take(name);
+    const std::optional<ParsedJson> value = take(name);
     if (!value) return std::nullopt;
     if (!value->is_array() || value->size() != N)
       throw UsageError(fmt::format("{}: expected {} numbers", name, N));
@@ -65,7 +65,7 @@ class Members {
   }
 
   std::optional<uint64_t> natural(const char* name) {
-    const std::optional<Json> value = take(name);
+    const std::optional<ParsedJson> value = take(name);
     if (!value) return std::nullopt;
     if (!value->is_number_unsigned())
       throw UsageError(fmt::format("{}: expected a whole number from 0", name));
@@ -73,14 +73,14 @@ class Members {
   }
 
   std::optional<std::string> text(const char* name) {
-    const std::optional<Json> value = take(name);
+    const std::optional<ParsedJson> value = take(name);
     if (!value) return std::nullopt;
     if (!value->is_string()) throw UsageError(fmt::format("{}: expected a text", name));
     return value->get<std::string>();
   }
 
   std::optional<bool> flag(const char* name) {
-    const std::optional<Json> value = take(name);
+    const std::optional<ParsedJson> value = take(name);
     if (!value) return std::nullopt;
     if (!value->is_boolean()) throw UsageError(fmt::format("{}: expected true or false", name));
     return value->get<bool>();
@@ -94,15 +94,15 @@ class Members {
   }
 
  private:
-  std::optional<Json> take(const char* name) {
+  std::optional<ParsedJson> take(const char* name) {
     const auto found = json_.find(name);
     if (found == json_.end()) return std::nullopt;
-    Json value = std::move(*found);
+    ParsedJson value = std::move(*found);
     json_.erase(found);
     return value;
   }
 
-  static double number_of(const Json& value, const char* name, double min, double max) {
+  static double number_of(const ParsedJson& value, const char* name, double min, double max) {
     if (!value.is_number()) throw UsageError(fmt::format("{}: expected a number", name));
     const double number = value.get<double>();
     if (!(number >= min && number <= max))
@@ -111,12 +111,12 @@ class Members {
     return number;
   }
 
-  Json json_;
+  ParsedJson json_;
 };
 
 /// A factor, or one each for red, green and blue, from 0.
-Rgb gain_of(const Json& json, const std::string& layer) {
-  const auto factor = [&](const Json& value) {
+Rgb gain_of(const ParsedJson& json, const std::string& layer) {
+  const auto factor = [&](const ParsedJson& value) {
     constexpr double kMaxGain = 1e6;
     if (!value.is_number() || !(value.get<double>() >= 0 && value.get<double>() <= kMaxGain))
       throw UsageError(fmt::format("mix: {}: expected numbers from 0 to {}", layer, kMaxGain));
@@ -205,7 +205,7 @@ PixelRequest parse_pixel_request(std::string_view body) {
 }
 
 Mix parse_mix(std::string_view text, const MixLayers& layers) {
-  const Json json = Json::parse(text, nullptr, false);
+  const ParsedJson json = ParsedJson::parse(text, nullptr, false);
   if (!json.is_object()) throw UsageError("mix: expected a JSON object with gains of layers");
   Mix mix;
   for (const auto& entry : json.items()) {

@@ -11,7 +11,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr int kSeeds = 16, kAcross = 2;
+constexpr int kCasterSeeds = 16, kCasterAcross = 2;
 constexpr float kRadius = 0.5f;  // pixels
 constexpr ClassMask kGlossyToo = ClassMask::kSpecular | ClassMask::kGlossy;
 
@@ -57,12 +57,12 @@ const char* const kCausticOnMetal = R"(
   Material "dielectric" "float eta" 1.5 "bool remaproughness" false "float roughness" 0.3
   AttributeBegin Translate -1 0.6 0 Shape "sphere" "float radius" 0.3 AttributeEnd)";
 
-struct Pictures {
+struct CasterPictures {
   const PairView view;
 
   /// Block means of four passes, for independent seeds.
   SeedValues pictures(const PairTechniques& techniques, uint64_t first_seed, int samples) const {
-    return values_over_seeds(kSeeds, first_seed, [&](uint64_t seed) {
+    return values_over_seeds(kCasterSeeds, first_seed, [&](uint64_t seed) {
       // Extrapolate to a radius of zero: the bias grows as the squared radius.
       std::vector<double> values = means(techniques, seed, samples, kRadius);
       if (techniques.light_paths == 0) return values;
@@ -87,7 +87,7 @@ struct Pictures {
       pass.radius_pixels = radius;
       render(pass, {.film = film, .samples = {map, view.no_walks}}, statistics);
     }
-    return block_means(film, kAcross);
+    return block_means(film, kCasterAcross);
   }
 };
 
@@ -109,13 +109,13 @@ PairTechniques merging(ClassMask casters) {
 class GlossyCasters : public ::testing::TestWithParam<Casters> {};
 
 TEST_P(GlossyCasters, PhotonsAndWalksFindWhatWalksAloneFind) {
-  const Pictures of{PairView(world(GetParam()))};
+  const CasterPictures of{PairView(world(GetParam()))};
   expect_equal(of.pictures(merging(kGlossyToo), 1, 64), of.pictures(camera_paths_only(), 1000, 256),
                GetParam().name);
 }
 
 TEST_P(GlossyCasters, PhotonsOfIndirectLightAndWalksFindWhatWalksAloneFind) {
-  const Pictures of{PairView(world(GetParam()))};
+  const CasterPictures of{PairView(world(GetParam()))};
   expect_equal(of.pictures(merging(ClassMask::kAll), 1, 64),
                of.pictures(camera_paths_only(), 1000, 256), GetParam().name);
 }
@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Roughness, GlossyCasters, ::testing::ValuesIn(kCasters)
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(SpecularCasters, ThrowCausticsOntoMetalWhicheverCastersCount) {
-  const Pictures of{PairView(kCausticOnMetal)};
+  const CasterPictures of{PairView(kCausticOnMetal)};
   expect_equal(of.pictures(merging(kGlossyToo), 1, 64),
                of.pictures(merging(ClassMask::kSpecular), 1000, 64), "metal");
   expect_equal(of.pictures(merging(ClassMask::kAll), 2000, 64),

@@ -16,7 +16,7 @@ struct Pair {
   double shutter = 0;  ///< time from it for which the shutter is open, s
 };
 
-constexpr int kSide = 40, kBlocks = 4, kSeeds = 16, kPasses = 24;
+constexpr int kSide = 40, kGltfBlocks = 4, kGltfSeeds = 16, kGltfPasses = 24;
 
 class GltfPair : public ::testing::TestWithParam<Pair> {};
 
@@ -38,8 +38,10 @@ TEST_P(GltfPair, AgreesWithItsPbrtScene) {
   const auto gltf = load(name + ".gltf", GetParam()), pbrt = load(name + ".pbrt", {});
   IntegratorOptions options;
   options.max_depth = 8;
-  const SeedValues a = block_values(*gltf, "path", options, kSeeds, kPasses, 1, kBlocks);
-  const SeedValues b = block_values(*pbrt, "path", options, kSeeds, kPasses, 101, kBlocks);
+  const SeedValues a =
+      block_values(*gltf, "path", options, kGltfSeeds, kGltfPasses, 1, kGltfBlocks);
+  const SeedValues b =
+      block_values(*pbrt, "path", options, kGltfSeeds, kGltfPasses, 101, kGltfBlocks);
   ASSERT_EQ(a.size(), b.size());
   double sum = 0, error = 0;
   for (size_t i = 0; i < a.size(); ++i) {

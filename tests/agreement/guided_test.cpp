@@ -28,7 +28,7 @@ std::string view(const std::string& world) {
 }
 
 // A glass ball that covers a small part of the lit area.
-const char* const kBall =
+const char* const kGuidedBall =
     "AttributeBegin Translate 0 0.5 0 Shape \"sphere\" \"float radius\" 0.3 "
     "AttributeEnd\n";
 struct Lights {
@@ -57,7 +57,7 @@ class Guided : public ::testing::TestWithParam<Lights> {};
 TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
   constexpr int kSeeds = 16, kAcross = 3, kBlocks = kAcross * kAcross;
   constexpr uint32_t kPasses = 32;
-  const auto scene = scene_from_text(view(std::string(kBall) + GetParam().text));
+  const auto scene = scene_from_text(view(std::string(kGuidedBall) + GetParam().text));
   IntegratorOptions options;
   options.photons_per_pass = 2048;
   options.radius = 2;
@@ -118,7 +118,7 @@ TEST_P(Guided, PhotonsFindTheSameCausticWithLessNoise) {
 // MIS weights of camera paths and photons add up to one only if both know the guided emission.
 TEST_P(Guided, WalksAndPhotonsTogetherFindTheSamePicture) {
   constexpr int kSeeds = 16, kAcross = 3;
-  const auto scene = scene_from_text(view(std::string(kBall) + GetParam().text));
+  const auto scene = scene_from_text(view(std::string(kGuidedBall) + GetParam().text));
   IntegratorOptions options;
   options.radius = 1;
   options.max_depth = 6;

@@ -16,11 +16,11 @@ namespace {
 
 using namespace testing_support;
 
-constexpr int kAcross = 3, kSeeds = 32, kSeedsOfRoutes = 16;
+constexpr int kAgreementAcross = 3, kAgreementSeeds = 32, kSeedsOfRoutes = 16;
 
 void expect_equal(const SeedValues& found, const SeedValues& reference, const std::string& what,
                   double noise_limit) {
-  const double quantile = reference[0].size() >= kSeeds ? kT31 : kT15;
+  const double quantile = reference[0].size() >= kAgreementSeeds ? kT31 : kT15;
   for (size_t i = 0; i < reference.size(); ++i) {
     const Estimate a = estimate_of(found[i]), b = estimate_of(reference[i]);
     EXPECT_NEAR(a.mean, b.mean, quantile * std::hypot(a.error, b.error)) << what << ", block " << i;
@@ -49,9 +49,10 @@ IntegratorOptions options_for(const AgreementScene& description) {
 SeedValues reference_values(const Scene& scene, const AgreementScene& description,
                             const IntegratorOptions& options, int seeds, uint32_t passes) {
   const std::string name = description.reference;
-  return name == "path" ? block_values(scene, name, options, seeds,
-                                       description.reference_passes * passes, 1, kAcross)
-                        : unbiased_block_values(scene, name, options, seeds, passes, 1, kAcross);
+  return name == "path"
+             ? block_values(scene, name, options, seeds, description.reference_passes * passes, 1,
+                            kAgreementAcross)
+             : unbiased_block_values(scene, name, options, seeds, passes, 1, kAgreementAcross);
 }
 
 class Agreement : public ::testing::TestWithParam<AgreementScene> {};
@@ -62,14 +63,14 @@ TEST_P(Agreement, OfAllIntegrators) {
   const auto scene = scene_from_text(agreement_scene_text(description, files.directory()));
   IntegratorOptions options = options_for(description);
   const SeedValues reference =
-      reference_values(*scene, description, options, kSeeds, description.passes);
+      reference_values(*scene, description, options, kAgreementSeeds, description.passes);
   uint64_t first_seed = 1000;
   options.camera_samples_per_pass = 8;  // keeps the path-traced part of few passes from being noisy
   for (const std::string integrator : {"mixed", "sppm", "bdpt"}) {
     if (integrator == description.reference) continue;
     options.edit<PathOptions>().specular_trees = integrator == "bdpt";
-    expect_equal(unbiased_block_values(*scene, integrator, options, kSeeds, description.passes,
-                                       first_seed, kAcross),
+    expect_equal(unbiased_block_values(*scene, integrator, options, kAgreementSeeds,
+                                       description.passes, first_seed, kAgreementAcross),
                  reference, std::string(description.name) + ", " + integrator, 0.01);
     first_seed += 1000;
   }
@@ -152,7 +153,7 @@ TEST_P(RoutesAgree, WithTheReference) {
     uint32_t passes = routes.name == std::string("ppm") ? description.passes_of_ppm : kFewPasses;
     use_whole_maps(routes.plan, own, passes);
     expect_equal(unbiased_block_values(*scene, routes.plan, own, kSeedsOfRoutes, passes, first_seed,
-                                       kAcross),
+                                       kAgreementAcross),
                  reference, std::string(description.name) + ", " + routes.name, 0.02);
     first_seed += 1000;
   }

@@ -10,7 +10,7 @@ namespace {
 using namespace testing_support;
 
 // A lamp, a glass ball with its caustic, and a wall that is lit by the floor.
-constexpr char kRoom[] = R"(
+constexpr char kLearningRoom[] = R"(
   LookAt 0 3 -5  0 0.4 0  0 1 0
   Camera "perspective" "float fov" 34
   Film "rgb" "integer xresolution" 4 "integer yresolution" 4
@@ -25,7 +25,7 @@ constexpr char kRoom[] = R"(
   Shape "bilinearmesh" "point3 P" [-6 0 2  6 0 2  -6 4 2  6 4 2]
   Material "dielectric" Translate 0.2 0.7 0 Shape "sphere" "float radius" 0.6
 )";
-constexpr int kSeeds = 256;
+constexpr int kLearningSeeds = 256;
 /// Quantile of the normal distribution at a two-sided level of 1e-5.
 constexpr double kQuantile = 4.42;
 
@@ -45,8 +45,8 @@ IntegratorOptions options_of_all() {
 
 /// Reference values of an estimator that does not learn, shared by all plans.
 const SeedValues& right_values() {
-  static const SeedValues values =
-      block_values(*scene_from_text(kRoom), "bdpt", options_of_all(), kSeeds, 64, 1, 2);
+  static const SeedValues values = block_values(*scene_from_text(kLearningRoom), "bdpt",
+                                                options_of_all(), kLearningSeeds, 64, 1, 2);
   return values;
 }
 
@@ -54,9 +54,9 @@ class Learning : public ::testing::TestWithParam<LearningPlan> {};
 
 TEST_P(Learning, AnewForEachSeedHasNoBias) {
   const Plan& plan = GetParam().plan;
-  const auto scene = scene_from_text(kRoom);
+  const auto scene = scene_from_text(kLearningRoom);
   const IntegratorOptions options = options_of_all();
-  const SeedValues found = values_over_seeds(kSeeds, 1000, [&](uint64_t seed) {
+  const SeedValues found = values_over_seeds(kLearningSeeds, 1000, [&](uint64_t seed) {
     const PlanLearned learned = learn(*scene, plan, options, seed);
     const auto means = [&](float radius) {
       IntegratorOptions own = options;

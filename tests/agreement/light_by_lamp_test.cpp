@@ -10,7 +10,7 @@ namespace {
 
 using testing_support::film_for, testing_support::plan_named, testing_support::scene_from_text;
 
-constexpr const char* kView = R"(
+constexpr const char* kLampView = R"(
   LookAt 0 3 -6  0 0.5 0  0 1 0
   Camera "perspective" "float fov" 40
   Film "rgb" "integer xresolution" 16 "integer yresolution" 12
@@ -20,11 +20,11 @@ constexpr const char* kView = R"(
   AttributeBegin Translate 0 0.6 0 Material "dielectric" Shape "sphere" "float radius" 0.5
   AttributeEnd
 )";
-constexpr const char* kLamp = R"(AttributeBegin
+constexpr const char* kSquareLamp = R"(AttributeBegin
   AreaLightSource "diffuse" "rgb L" [9 3 3] "string name" "lamp"
   Translate 2 3 0 Shape "sphere" "float radius" 0.4 AttributeEnd
 )";
-constexpr const char* kSky = "LightSource \"infinite\" \"rgb L\" [0.2 0.2 0.4]\n";
+constexpr const char* kLampSky = "LightSource \"infinite\" \"rgb L\" [0.2 0.2 0.4]\n";
 constexpr const char* kBoxed = R"(AttributeBegin Translate -3 2 0
   Shape "sphere" "float radius" 0.5
   LightSource "point" "rgb I" [5 5 5] AttributeEnd
@@ -43,8 +43,8 @@ struct Counts {
   }
 };
 
-Counts render(const std::string& world, const std::string& plan, uint32_t passes) {
-  const auto scene = scene_from_text(kView + world);
+Counts counts_of(const std::string& world, const std::string& plan, uint32_t passes) {
+  const auto scene = scene_from_text(kLampView + world);
   EstimatorSet set = make_estimators(plan_named(plan), {}, *scene);
   Film film = film_for(*scene, set);
   for (uint32_t pass = 0; pass < passes; ++pass) set.render_pass({7, pass}, *scene, film);
@@ -65,10 +65,10 @@ Counts render(const std::string& world, const std::string& plan, uint32_t passes
   return counts;
 }
 
-class LightByLamp : public testing::TestWithParam<const char*> {};
+class LightByLamp : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(LightByLamp, AddsUpToThePicture) {
-  const Counts counts = render(std::string(kLamp) + kSky + kBoxed, GetParam(), 8);
+  const Counts counts = counts_of(std::string(kSquareLamp) + kLampSky + kBoxed, GetParam(), 8);
   EXPECT_TRUE(counts.tells);
   ASSERT_EQ(counts.lamps.size(), 3u);
   EXPECT_EQ(counts.light("point1"), 0);
@@ -78,9 +78,10 @@ TEST_P(LightByLamp, AddsUpToThePicture) {
 }
 
 TEST_P(LightByLamp, IsTheLightOfEachLampAlone) {
-  const Counts both = render(std::string(kLamp) + kSky, GetParam(), 8);
+  const Counts both = counts_of(std::string(kSquareLamp) + kLampSky, GetParam(), 8);
   const double share = both.light("lamp") / both.film;
-  const double lamp = render(kLamp, GetParam(), 8).film, sky = render(kSky, GetParam(), 8).film;
+  const double lamp = counts_of(kSquareLamp, GetParam(), 8).film,
+               sky = counts_of(kLampSky, GetParam(), 8).film;
   // The standard error of the share is about 0.02.
   EXPECT_NEAR(share, lamp / (lamp + sky), 0.08);
 }
@@ -89,7 +90,7 @@ TEST_P(LightByLamp, ThreadsDoNotMatter) {
   std::vector<Counts> counts;
   for (const int threads : {1, 3}) {
     const ThreadLimit limit(threads);
-    counts.push_back(render(std::string(kLamp) + kSky + kBoxed, GetParam(), 2));
+    counts.push_back(counts_of(std::string(kSquareLamp) + kLampSky + kBoxed, GetParam(), 2));
   }
   for (size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(counts[0].lamps[i].light, counts[1].lamps[i].light);
@@ -98,28 +99,29 @@ TEST_P(LightByLamp, ThreadsDoNotMatter) {
 }
 
 TEST_P(LightByLamp, LaterPassesAreNotCounted) {
-  const Counts eight = render(kSky, GetParam(), 8), more = render(kSky, GetParam(), 10);
+  const Counts eight = counts_of(kLampSky, GetParam(), 8),
+               more = counts_of(kLampSky, GetParam(), 10);
   EXPECT_EQ(eight.lamps[0].light, more.lamps[0].light);
 }
 
 INSTANTIATE_TEST_SUITE_P(Estimators, LightByLamp,
-                         testing::Values("mixed", "path", "bdpt", "vcm", "bpm"),
+                         ::testing::Values("mixed", "path", "bdpt", "vcm", "bpm"),
                          [](const auto& row) { return std::string(row.param); });
 
 TEST(LightByLamp, LightsOfOneNameAreOneAndGlowingMediaAreOthers) {
-  const Counts counts = render(std::string(kLamp) + kLamp + R"(
+  const Counts counts = counts_of(std::string(kSquareLamp) + kSquareLamp + R"(
     MakeNamedMedium "fire" "string type" "homogeneous" "rgb Le" [1 1 1] "rgb sigma_a" [1 1 1]
       "rgb sigma_s" [0 0 0]
     AttributeBegin MediumInterface "fire" "" Material "interface" Translate 1 1 1
     Shape "sphere" "float radius" 0.5 AttributeEnd)",
-                               "mixed", 2);
+                                  "mixed", 2);
   ASSERT_EQ(counts.lamps.size(), 2u);
   EXPECT_EQ(counts.lamps[1].name, "fire");
   EXPECT_GT(counts.lamps[1].light, 0);
 }
 
 TEST(LightByLamp, OtherEstimatorsSayThatTheyDoNotTell) {
-  EXPECT_FALSE(render(kSky, "sppm", 1).tells);
+  EXPECT_FALSE(counts_of(kLampSky, "sppm", 1).tells);
 }
 
 }  // namespace

@@ -11,24 +11,24 @@ namespace {
 
 using namespace testing_support;
 
-constexpr int kAcross = 3, kSeeds = 16;
+constexpr int kTracedAcross = 3, kTracedSeeds = 16;
 
 // Nothing here is seen in a mirror, so light tracing finds the whole picture.
-const std::string kBall = R"(
+const std::string kTracedBall = R"(
   AttributeBegin Material "diffuse" "rgb reflectance" [0.7 0.4 0.2]
   Translate 0 0.6 0 Shape "sphere" "float radius" 0.6 AttributeEnd )";
-const std::string kRoom = R"(
+const std::string kTracedRoom = R"(
   Material "diffuse" "rgb reflectance" [0.5 0.5 0.6]
   Shape "bilinearmesh" "point3 P" [-3 0 -3  3 0 -3  -3 0 3  3 0 3]
   Shape "bilinearmesh" "point3 P" [-3 0 3  3 0 3  -3 3 3  3 3 3] )";
 // Two-sided and in view.
-const std::string kLamp = R"(
+const std::string kTracedLamp = R"(
   AttributeBegin AreaLightSource "diffuse" "rgb L" [5 4 3] "bool twosided" true
   Material "diffuse" "rgb reflectance" [0.2 0.2 0.2]
   Translate 0.8 1.6 0.9 Rotate 40 1 0 0 Shape "disk" "float radius" 0.5 AttributeEnd )";
 const std::string kLookAt = "LookAt 0 2.2 -3.5  0 0.8 0  0 1 0 ";
-const std::string kView = kLookAt + R"(Camera "perspective" "float fov" 45 )";
-const std::string kFilm =
+const std::string kTracedView = kLookAt + R"(Camera "perspective" "float fov" 45 )";
+const std::string kTracedFilm =
     R"(Film "rgb" "integer xresolution" 12 "integer yresolution" 12 PixelFilter "box" )";
 
 struct LightScene {
@@ -43,41 +43,41 @@ std::vector<LightScene> light_scenes() {
   const std::string fog = R"(MakeNamedMedium "fog" "string type" "homogeneous"
     "rgb sigma_a" [0.02 0.04 0.1] "rgb sigma_s" [0.3 0.15 0.05] "float g" 0.3 )";
   return {
-      {"lamp_in_view", kView + kFilm, kLamp + kRoom + kBall},
-      {"half_there_lamp", kView + kFilm,
+      {"lamp_in_view", kTracedView + kTracedFilm, kTracedLamp + kTracedRoom + kTracedBall},
+      {"half_there_lamp", kTracedView + kTracedFilm,
        R"(AttributeBegin AreaLightSource "diffuse" "rgb L" [5 4 3] Translate 0 2 1 Rotate 140 1 0 0
           Shape "disk" "float radius" 0.7 "float alpha" 0.4 AttributeEnd )" +
-           kRoom},
+           kTracedRoom},
       {"thin_lens",
        kLookAt + R"(Camera "perspective" "float fov" 45 "float lensradius" 0.2
                     "float focaldistance" 2.5 )" +
-           kFilm,
-       kLamp + kRoom + kBall},
+           kTracedFilm,
+       kTracedLamp + kTracedRoom + kTracedBall},
       {"turned_window_and_crop",
        kLookAt + R"(Camera "perspective" "float fov" 60 "float screenwindow" [0.8 -0.6 -0.9 0.9]
                     Film "rgb" "integer xresolution" 24 "integer yresolution" 24
                     "float cropwindow" [0.25 0.75 0.5 1] PixelFilter "gaussian" )",
-       kLamp + kRoom + kBall},
+       kTracedLamp + kTracedRoom + kTracedBall},
       {"uneven_moving_camera",
        R"(Scale 1.3 0.8 1 LookAt 0 2.2 -3.5  0 0.8 0  0 1 0 ActiveTransform EndTime
           Translate 0.4 0.2 0 Rotate 10 0 1 0 ActiveTransform All Camera "perspective" )" +
-           kFilm,
-       kLamp + kRoom + kBall},
+           kTracedFilm,
+       kTracedLamp + kTracedRoom + kTracedBall},
       {"orthographic",
-       kLookAt + R"(Camera "orthographic" "float screenwindow" [-1.6 1.6 -1.6 1.6] )" + kFilm,
-       kLamp + kRoom + kBall},
+       kLookAt + R"(Camera "orthographic" "float screenwindow" [-1.6 1.6 -1.6 1.6] )" + kTracedFilm,
+       kTracedLamp + kTracedRoom + kTracedBall},
       // Filters reach across the seam, where the picture wraps around.
       {"equirectangular",
        spherical + R"("string mapping" "equirectangular" Film "rgb" "integer xresolution" 12
                      "integer yresolution" 12 PixelFilter "gaussian" )",
-       kLamp + kRoom + kBall},
+       kTracedLamp + kTracedRoom + kTracedBall},
       {"equal_area", spherical + R"(Film "rgb" "integer xresolution" 12 "integer yresolution" 12
                      PixelFilter "gaussian" )",
-       kLamp + kRoom + kBall},
+       kTracedLamp + kTracedRoom + kTracedBall},
       // Everything is in fog, including the camera, the lamp and both sides of the sheets.
-      {"fog", fog + R"(MediumInterface "fog" "fog" )" + kView + kFilm,
-       R"(MediumInterface "fog" "fog" )" + kLamp + kRoom + kBall},
-      {"spot_light_in_grid_fog", kView + kFilm,
+      {"fog", fog + R"(MediumInterface "fog" "fog" )" + kTracedView + kTracedFilm,
+       R"(MediumInterface "fog" "fog" )" + kTracedLamp + kTracedRoom + kTracedBall},
+      {"spot_light_in_grid_fog", kTracedView + kTracedFilm,
        R"(MakeNamedMedium "grid" "string type" "uniformgrid" "integer nx" 2 "integer ny" 2
           "integer nz" 2 "float density" [0.2 1 0.6 0.1 0.9 0.3 0.5 1] "point3 p0" [-1 0 -1]
           "point3 p1" [1 2 1] "rgb sigma_a" [0.1 0.2 0.4] "rgb sigma_s" [1.5 1 0.5]
@@ -85,18 +85,18 @@ std::vector<LightScene> light_scenes() {
           Translate 0 0.9 0 Shape "sphere" "float radius" 0.85 AttributeEnd
           LightSource "spot" "rgb I" [30 26 22] "point3 from" [1.5 2.5 -1] "point3 to" [0 0.6 0]
           "float coneangle" 35 )" +
-           kRoom},
-      {"sky_and_gloss", kView + kFilm,
+           kTracedRoom},
+      {"sky_and_gloss", kTracedView + kTracedFilm,
        R"(LightSource "infinite" "rgb L" [0.5 0.6 0.7]
           AttributeBegin Material "conductor" "float roughness" 0.3 Translate 0 0.7 0
           Shape "sphere" "float radius" 0.6 AttributeEnd )" +
-           kRoom},
-      {"caustic_of_a_large_lamp", kView + kFilm,
+           kTracedRoom},
+      {"caustic_of_a_large_lamp", kTracedView + kTracedFilm,
        R"(AttributeBegin AreaLightSource "diffuse" "rgb L" [3 3 3] Translate 0 3.5 0
           Rotate 90 1 0 0 Shape "disk" "float radius" 1.5 AttributeEnd
           AttributeBegin Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
           Shape "sphere" "float radius" 0.5 AttributeEnd )" +
-           kRoom,
+           kTracedRoom,
        false},
   };
 }
@@ -113,8 +113,10 @@ TEST_P(LightTracingAgrees, WithPathTracing) {
   options.max_depth = 6;
   options.photons_per_pass = 12000;
   options.camera_samples_per_pass = 16;
-  const SeedValues traced = block_values(*scene, "light-only", options, kSeeds, 4, 1, kAcross);
-  const SeedValues reference = block_values(*scene, "path-only", options, kSeeds, 6, 1000, kAcross);
+  const SeedValues traced =
+      block_values(*scene, "light-only", options, kTracedSeeds, 4, 1, kTracedAcross);
+  const SeedValues reference =
+      block_values(*scene, "path-only", options, kTracedSeeds, 6, 1000, kTracedAcross);
   double sum = 0, squared_error = 0, difference = 0;
   for (size_t i = 0; i < reference.size(); ++i) {
     const Estimate a = estimate_of(traced[i]), b = estimate_of(reference[i]);
@@ -166,7 +168,7 @@ TEST(LightTracing, RefusesMeasuredLenses) {
       R"(Camera "realistic" "string lensfile" "unit/camera/lenses/thin.dat"
          "float focusdistance" 1 Film "rgb" "integer xresolution" 4 "integer yresolution" 4
          WorldBegin )" +
-      kLamp);
+      kTracedLamp);
   EXPECT_THROW(render(*scene, "light-only", {}, 1, 1), UsageError);
 }
 

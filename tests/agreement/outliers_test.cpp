@@ -13,7 +13,7 @@ namespace {
 using namespace testing_support;
 
 // A rough mirror, and a small lamp that paths through the glass hit only by chance.
-const char* const kScene = R"(
+const char* const kOutlierScene = R"(
   LookAt 0 4 -5  0 0.4 0  0 1 0
   Camera "perspective" "float fov" 40
   Film "rgb" "integer xresolution" 32 "integer yresolution" 32
@@ -73,7 +73,7 @@ double relative_error(const Film& reference, const Film& film) {
 class Outliers : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Outliers, AreThePicturesOwnLightForAnyNumberOfThreads) {
-  const auto scene = scene_from_text(kScene);
+  const auto scene = scene_from_text(kOutlierScene);
   const Film plain = render(*scene, GetParam(), options_of_test(), 3, 4);
   std::vector<Film> films;
   for (const int threads : {1, 3}) {
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(AllRoutes, Outliers, ::testing::ValuesIn(plan_names()),
                          [](const auto& test) { return test_name(test.param); });
 
 TEST(OutliersOfPath, FirefliesGo) {
-  const auto scene = scene_from_text(kScene);
+  const auto scene = scene_from_text(kOutlierScene);
   const Film reference = render(*scene, "path", options_of_test(), 100, 1024);
   const Film plain = render(*scene, "path", options_of_test(), 1, 32);
   const Film film = render_rejecting(*scene, "path", 1, 32);
@@ -104,7 +104,7 @@ TEST(OutliersOfPath, FirefliesGo) {
 }
 
 TEST(OutliersOfPhotons, CausticsStay) {
-  const auto scene = scene_from_text(kScene);
+  const auto scene = scene_from_text(kOutlierScene);
   const auto caustic = [&](const Film& film) {
     double sum = 0;
     for_each_channel(film, [&](int x, int y, int c) { sum += film.route_value(0, x, y)[c]; });

@@ -186,7 +186,7 @@ struct Owners {
 
 class PartitionOwners : public ::testing::TestWithParam<Owners> {};
 
-constexpr int kSeeds = 32, kAcross = 2;
+constexpr int kPartitionSeeds = 32, kPartitionAcross = 2;
 
 IntegratorOptions options_of_owners() {
   IntegratorOptions options;
@@ -203,8 +203,9 @@ IntegratorOptions options_of_owners() {
 
 /// Path tracing of everything, shared by all rows.
 const SeedValues& path_traced() {
-  static const SeedValues values = block_values(*scene_from_text(world()), plan_of({"all=.*:path"}),
-                                                options_of_owners(), kSeeds, 8, 1, kAcross);
+  static const SeedValues values =
+      block_values(*scene_from_text(world()), plan_of({"all=.*:path"}), options_of_owners(),
+                   kPartitionSeeds, 8, 1, kPartitionAcross);
   return values;
 }
 
@@ -214,8 +215,8 @@ TEST_P(PartitionOwners, FindTheSamePicture) {
   uint32_t passes = GetParam().passes;
   use_whole_maps(plan, options, passes);
   const SeedValues& reference = path_traced();
-  const SeedValues found =
-      unbiased_block_values(*scene_from_text(world()), plan, options, kSeeds, passes, 500, kAcross);
+  const SeedValues found = unbiased_block_values(*scene_from_text(world()), plan, options,
+                                                 kPartitionSeeds, passes, 500, kPartitionAcross);
   for (size_t i = 0; i < reference.size(); ++i) {
     const Estimate a = estimate_of(found[i]), b = estimate_of(reference[i]);
     const double error = std::hypot(a.error, b.error);

@@ -14,7 +14,7 @@ constexpr char kFlipped[] =
     R"(LookAt 0 6 -3  0 0.4 0  0 1 0
        Camera "perspective" "float fov" 32 "float screenwindow" [1 -1 1 -1])";
 
-constexpr char kLamp[] = R"(
+constexpr char kSceneLamp[] = R"(
   AttributeBegin
     AreaLightSource "diffuse" "rgb L" [10 9 8]
     Material "diffuse" "rgb reflectance" [0 0 0]
@@ -27,7 +27,7 @@ constexpr char kPointLight[] =
 constexpr char kSpotLight[] =
     R"(LightSource "spot" "rgb I" [40 36 32] "point3 from" [2.2 3.2 0.5] "point3 to" [0 0.6 0]
        "float coneangle" 35 "float conedeltaangle" 10)";
-constexpr char kSky[] = R"(LightSource "infinite" "rgb L" [0.5 0.6 0.7])";
+constexpr char kSceneSky[] = R"(LightSource "infinite" "rgb L" [0.5 0.6 0.7])";
 
 constexpr char kProjector[] = R"(
   AttributeBegin
@@ -66,7 +66,7 @@ constexpr char kPortalInSmoke[] = R"(
   AttributeEnd
 )";
 
-constexpr char kRoom[] = R"(
+constexpr char kSceneRoom[] = R"(
   Material "diffuse" "rgb reflectance" [0.6 0.5 0.4]
   Shape "bilinearmesh" "point3 P" [-3.5 0 -3.5  3.5 0 -3.5  -3.5 0 3.5  3.5 0 3.5]
   Shape "bilinearmesh" "point3 P" [-3.5 0 -3.5  -3.5 0 3.5  -3.5 3 -3.5  -3.5 3 3.5]
@@ -74,7 +74,7 @@ constexpr char kRoom[] = R"(
 
 // Replaces BALL in a scene's text: a control cage of few triangles whose limit surface is a smooth
 // ball of radius about 0.6.
-constexpr char kBall[] = R"(Shape "loopsubdiv" "integer levels" 2
+constexpr char kSceneBall[] = R"(Shape "loopsubdiv" "integer levels" 2
   "integer indices" [0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5]
   "point3 P" [0.9 0 0  -0.9 0 0  0 0.9 0  0 -0.9 0  0 0 0.9  0 0 -0.9])";
 
@@ -262,7 +262,7 @@ const std::vector<AgreementScene> kAgreementScenes = {
     {.name = "sky_and_glass",
      .world = R"(Material "dielectric" "float eta" 1.5 Translate 0 0.9 0
                  Shape "sphere" "float radius" 0.6)",
-     .light = kSky,
+     .light = kSceneSky,
      .photons = 9216,
      .passes = 6},
     {.name = "projection_light_and_diffuse",
@@ -339,7 +339,8 @@ std::string agreement_scene_text(const AgreementScene& scene, const std::string&
   const std::string film = *scene.film ? scene.film : R"(PixelFilter "box")";
   std::string text = std::string(scene.camera ? scene.camera : kCamera) +
                      R"( Film "rgb" "integer xresolution" 12 "integer yresolution" 12 )" + film +
-                     " WorldBegin\n" + (scene.light ? scene.light : kLamp) + kRoom + scene.world;
+                     " WorldBegin\n" + (scene.light ? scene.light : kSceneLamp) + kSceneRoom +
+                     scene.world;
   const auto fill_in = [&text](const std::string& placeholder, const std::string& by) {
     if (const size_t at = text.find(placeholder); at != std::string::npos)
       text.replace(at, placeholder.size(), by);
@@ -347,7 +348,7 @@ std::string agreement_scene_text(const AgreementScene& scene, const std::string&
   fill_in("WAVES", directory + "/waves.pfm");
   fill_in("PICTURE", directory + "/picture.pfm");
   fill_in("MEASURED", directory + "/brushed.bsdf");
-  fill_in("BALL", kBall);
+  fill_in("BALL", kSceneBall);
   return text;
 }
 

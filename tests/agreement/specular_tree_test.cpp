@@ -16,13 +16,13 @@ namespace {
 
 using namespace testing_support;
 
-struct Estimate {
+struct TreeEstimate {
   double mean = 0, variance = 0;  ///< variance of a path
 };
 
 /// Paths through a part of the picture, each with its own wavelengths, weighted by the sensor.
-Estimate look(const Scene& scene, const OwnedRoutes& owned, bool grows, bool shares_wavelengths,
-              const PixelBounds& area = {0, 0, 8, 8}) {
+TreeEstimate look(const Scene& scene, const OwnedRoutes& owned, bool grows, bool shares_wavelengths,
+                  const PixelBounds& area = {0, 0, 8, 8}) {
   const SpecularTree tree(scene, owned, 20);
   PartSums light(*owned.routes, owned.group);
   constexpr int kPaths = 1 << 15;
@@ -84,8 +84,8 @@ TEST(SpecularTree, FindsWhatWalksFindWithLessNoise) {
     const auto scene = scene_from_text(c.text);
     const OwnedRoutes owned = owned_routes(*scene, {"all=.*:path"});
     for (const bool shared : {false, true}) {
-      const Estimate walks = look(*scene, owned, false, shared);
-      const Estimate trees = look(*scene, owned, true, shared);
+      const TreeEstimate walks = look(*scene, owned, false, shared);
+      const TreeEstimate trees = look(*scene, owned, true, shared);
       if (c.gain == 0) {
         EXPECT_EQ(trees.mean, walks.mean) << c.name;
         continue;
@@ -124,7 +124,7 @@ TEST(SpecularChainPass, FindsTheLightBehindDeltaLobes) {
               64u * 32);
   double sum = 0;
   for (const Rgb& v : values) sum += static_cast<double>(v.r + v.g + v.b) / 3;
-  const Estimate walks = look(*scene, owned, false, false);
+  const TreeEstimate walks = look(*scene, owned, false, false);
   const double error = std::sqrt(walks.variance / (1 << 15));
   EXPECT_NEAR(sum / kPasses / static_cast<double>(b.area()), walks.mean, 3.5 * error);
   EXPECT_GT(walks.mean, 20 * error);

@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr char kScene[] = R"(
+constexpr char kCountedScene[] = R"(
   LookAt 0 2.5 -4  0 0.5 0  0 1 0
   Camera "perspective" "float fov" 45
   Film "rgb" "integer xresolution" 16 "integer yresolution" 12
@@ -37,10 +37,10 @@ double light_of(const Film& film, size_t route) {
   return sum;
 }
 
-class Techniques : public testing::TestWithParam<std::string> {};
+class Techniques : public ::testing::TestWithParam<std::string> {};
 
 void expect_sums(const std::string& plan, const IntegratorOptions& options) {
-  const auto scene = scene_from_text(kScene);
+  const auto scene = scene_from_text(kCountedScene);
   EstimatorSet set = make_estimators(Plan(plan), options, *scene);
   Film film = film_for(*scene, set);
   constexpr uint32_t kPasses = 3;
@@ -75,7 +75,7 @@ TEST_P(Techniques, AddUpToTheLightOfTheirRoutes) {
 
 // Over all routes, every technique of the estimator contributes.
 TEST_P(Techniques, AreTheOnesThatTheEstimatorHas) {
-  const auto scene = scene_from_text(kScene);
+  const auto scene = scene_from_text(kCountedScene);
   IntegratorOptions options;
   options.camera_samples_per_pass = 8;  // mixed then has walks for specular chains in every pixel
   EstimatorSet set = make_estimators(Plan(GetParam()), options, *scene);
@@ -96,7 +96,7 @@ TEST_P(Techniques, AreTheOnesThatTheEstimatorHas) {
 
 TechniqueLight light_of_pass(const std::string& plan, const IntegratorOptions& options,
                              uint32_t pass) {
-  const auto scene = scene_from_text(kScene);
+  const auto scene = scene_from_text(kCountedScene);
   EstimatorSet set = make_estimators(Plan(plan), options, *scene);
   Film film = film_for(*scene, set);
   set.render_pass({5, pass}, *scene, film);
@@ -134,7 +134,7 @@ TEST(TechniquesOfTrees, AreNotLightsMetByWalks) {
   EXPECT_EQ(by_mirrors(light_of_pass("bdpt", options, 0)), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Estimators, Techniques, testing::Values("bdpt", "vcm", "bpm", "mixed"));
+INSTANTIATE_TEST_SUITE_P(Estimators, Techniques, ::testing::Values("bdpt", "vcm", "bpm", "mixed"));
 
 }  // namespace
 }  // namespace nephroid

@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr int kSeeds = 16, kAcross = 2;
+constexpr int kTrialSeeds = 16, kTrialAcross = 2;
 
 /// Notes of the default integrator after its first two passes.
 std::string notes_of(const Scene& scene, const IntegratorOptions& options) {
@@ -41,8 +41,8 @@ TEST(Trials, ThatMergeAllLightFindTheSamePicture) {
   options.max_depth = 6;
   const std::string notes = notes_of(*scene, options);
   EXPECT_NE(notes.find("photons render all indirect light"), std::string::npos) << notes;
-  expect_same(unbiased_block_values(*scene, "mixed", options, kSeeds, 24, 100, kAcross),
-              block_values(*scene, "bdpt", options, kSeeds, 32, 1, kAcross), 0.02);
+  expect_same(unbiased_block_values(*scene, "mixed", options, kTrialSeeds, 24, 100, kTrialAcross),
+              block_values(*scene, "bdpt", options, kTrialSeeds, 32, 1, kTrialAcross), 0.02);
 }
 
 // Some tiles have walks for specular chains, others leave their light to camera paths.
@@ -69,8 +69,8 @@ TEST(Trials, ThatShareGlintsOutFindTheSamePicture) {
   EXPECT_NE(notes.find("smooth glass and mirrors per pixel and pass on average, 0 to "),
             std::string::npos)
       << notes;
-  expect_same(block_values(*scene, "mixed", options, kSeeds, 32, 100, kAcross),
-              block_values(*scene, "path", options, kSeeds, 2048, 1, kAcross), 0.02);
+  expect_same(block_values(*scene, "mixed", options, kTrialSeeds, 32, 100, kTrialAcross),
+              block_values(*scene, "path", options, kTrialSeeds, 2048, 1, kTrialAcross), 0.02);
 }
 
 }  // namespace

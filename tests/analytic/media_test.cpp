@@ -219,7 +219,7 @@ TEST(Media, SingleScatteringOfAPointLight) {
 }
 
 // A ball of the medium, whose surface has `material`.
-std::string ball(const std::string& material) {
+std::string ball_of(const std::string& material) {
   return "AttributeBegin MediumInterface \"m\" \"\" Material " + material +
          " Shape \"sphere\" \"float radius\" 1 AttributeEnd\n";
 }
@@ -233,13 +233,13 @@ TEST(Media, WhiteFurnaceIsNotSeen) {
   options.max_depth = 1000;
   for (const MediumText& m : white_media) {
     const auto scene =
-        scene_from_text(camera("", 18) + named(m) + ball("\"interface\"") + kWhiteSky);
+        scene_from_text(camera("", 18) + named(m) + ball_of("\"interface\"") + kWhiteSky);
     expect_mean(*scene, "path", m.name, 1, 64, options);
   }
   // Inside glass, where paths are long because light leaves rarely.
   const MediumText& milk = white_media[0];
   const auto glass = scene_from_text(camera("", 18) + named(milk) +
-                                     ball("\"dielectric\" \"float eta\" 1.4") + kWhiteSky);
+                                     ball_of("\"dielectric\" \"float eta\" 1.4") + kWhiteSky);
   expect_mean(*glass, "path", "homogeneous in glass", 1, 24, options);
 }
 
@@ -248,7 +248,7 @@ TEST(Media, EquilibriumIsNotSeen) {
   // inside.
   for (const MediumText& m : media(0.5, 1.5, 1)) {
     const auto scene =
-        scene_from_text(camera("", 18) + named(m) + ball("\"interface\"") + kWhiteSky +
+        scene_from_text(camera("", 18) + named(m) + ball_of("\"interface\"") + kWhiteSky +
                         "MediumInterface \"m\" \"m\" Material \"diffuse\" \"spectrum reflectance\" "
                         "[ 300 1 900 1 ] Shape \"sphere\" \"float radius\" 0.4\n");
     IntegratorOptions options;

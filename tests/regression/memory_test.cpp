@@ -8,7 +8,7 @@
 namespace nephroid::testing_support {
 namespace {
 
-const std::string kScene = source_directory() + "/scenes/caustic-room/scene.pbrt";
+const std::string kCausticRoom = source_directory() + "/scenes/caustic-room/scene.pbrt";
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kIsLarge = true;
@@ -27,18 +27,20 @@ class MemoryLimit : public ::testing::TestWithParam<const char*> {};
 TEST_P(MemoryLimit, IsKept) {
   if (kIsLarge) GTEST_SKIP() << "sanitizers take memory of their own";
   const testing::TemporaryDirectory folder;
-  const ProgramRun run = run_program(
-      folder.path(), {"render", kScene, "--memory", "320M", "--resolution", "240x160", "--passes",
-                      "2", "-t", "2", "--integrator", GetParam(), "-o", "picture.exr", "--quiet"});
+  const ProgramRun run =
+      run_program(folder.path(), {"render", kCausticRoom, "--memory", "320M", "--resolution",
+                                  "240x160", "--passes", "2", "-t", "2", "--integrator", GetParam(),
+                                  "-o", "picture.exr", "--quiet"});
   EXPECT_EQ(run.status, 0) << run.errors;
   EXPECT_LT(run.peak_memory, uint64_t{320} << 20);
 }
 
 TEST_P(MemoryLimit, IsRefusedBeforeItStarts) {
   const testing::TemporaryDirectory folder;
-  const ProgramRun run = run_program(
-      folder.path(), {"render", kScene, "--memory", "320M", "--resolution", "2400x1600", "--passes",
-                      "2", "-t", "2", "--integrator", GetParam(), "-o", "picture.exr", "--quiet"});
+  const ProgramRun run =
+      run_program(folder.path(), {"render", kCausticRoom, "--memory", "320M", "--resolution",
+                                  "2400x1600", "--passes", "2", "-t", "2", "--integrator",
+                                  GetParam(), "-o", "picture.exr", "--quiet"});
   EXPECT_EQ(run.status, kUsage) << run.errors;
   EXPECT_NE(run.errors.find("nephroid: error: --memory: 3840000 pixels (2400 x 1600) need about "),
             std::string::npos)

@@ -16,7 +16,7 @@ Tree letter(const char* text) {
 }
 
 /// All words C e1 ... en l with up to `length` events, each once without and once with a mark.
-std::vector<Word> words(const Alphabet& alphabet, int length) {
+std::vector<Word> words_over(const Alphabet& alphabet, int length) {
   std::vector<Word> prefixes{{alphabet.eye()}}, all;
   for (size_t i = 0; i < prefixes.size(); ++i)
     if (static_cast<int>(prefixes[i].size()) <= length)
@@ -73,7 +73,7 @@ TEST_P(OracleSeeds, MatchersAgree) {
   RandomRoutes random(GetParam(),
                       with_label ? std::vector<std::string>{"glass"} : std::vector<std::string>{});
   const Alphabet alphabet(with_label ? 1 : 0);
-  const std::vector<Word> all = words(alphabet, with_label ? 2 : 3);
+  const std::vector<Word> all = words_over(alphabet, with_label ? 2 : 3);
   size_t compared = 0, accepted_words = 0;
   for (int n = 0; n < 20; ++n) {
     const Tree tree = random.expression(n % 3 == 0);

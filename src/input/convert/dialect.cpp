@@ -6,7 +6,7 @@
 namespace nephroid {
 namespace {
 
-constexpr DialectName kNames[] = {
+constexpr DialectName kDialects[] = {
     {"Material", "principled"},
     {"Material", "", "normalmap.scale"},
     {"Material", "", "normalmap.handedness"},
@@ -60,7 +60,7 @@ std::string phrase(const DialectName& name, const std::string& parameter_type) {
 class Collector {
  public:
   void add(const std::string& directive, const DirectiveDescription& d) {
-    for (const DialectName& name : kNames)
+    for (const DialectName& name : kDialects)
       if (directive == name.directive && (!*name.type || d.type == name.type)) add(name, d);
   }
   void add(const ShapeDescription& shape) {
@@ -84,7 +84,7 @@ class Collector {
 }  // namespace
 
 std::span<const DialectName> dialect_names() {
-  return kNames;
+  return kDialects;
 }
 
 std::string dialect_note(const SceneDescription& scene) {

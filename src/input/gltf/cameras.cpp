@@ -9,8 +9,6 @@
 namespace nephroid::gltf {
 namespace {
 
-constexpr double kPiDouble = 3.14159265358979323846;
-
 /// A node with a camera.
 struct PlacedCamera {
   size_t node;

@@ -6,7 +6,7 @@
 namespace nephroid::gltf {
 namespace {
 
-constexpr size_t kHeader = 12, kChunkHeader = 8;
+constexpr size_t kGlbHeader = 12, kChunkHeader = 8;
 constexpr uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
 /// A little-endian word, as all that glTF stores.
@@ -21,7 +21,7 @@ uint32_t word_at(std::string_view bytes, size_t at) {
 Container read_container(std::string_view bytes, const SourceLocation& file) {
   if (bytes.empty()) throw SceneError(file, "the file is empty, expected a glTF scene");
   if (!bytes.starts_with("glTF")) return {bytes, {}};
-  if (bytes.size() < kHeader)
+  if (bytes.size() < kGlbHeader)
     throw SceneError(file, "the GLB header is cut off, expected 12 bytes");
   if (word_at(bytes, 4) != 2)
     throw SceneError(file, "this GLB file has version " + std::to_string(word_at(bytes, 4)) +
@@ -31,14 +31,14 @@ Container read_container(std::string_view bytes, const SourceLocation& file) {
     throw SceneError(file, "the GLB file is cut off: its header claims " + std::to_string(length) +
                                " bytes, there are " + std::to_string(bytes.size()));
   Container container;
-  for (size_t at = kHeader; at + kChunkHeader <= length;) {
+  for (size_t at = kGlbHeader; at + kChunkHeader <= length;) {
     const size_t size = word_at(bytes, at), start = at + kChunkHeader;
     const uint32_t type = word_at(bytes, at + 4);
     if (size > length - start)
       throw SceneError(file, "a chunk of the GLB file claims " + std::to_string(size) +
                                  " bytes, there are " + std::to_string(length - start) + " left");
     const std::string_view chunk = bytes.substr(start, size);
-    if (type == kJsonChunk && at == kHeader) container.json = chunk;
+    if (type == kJsonChunk && at == kGlbHeader) container.json = chunk;
     if (type == kBinaryChunk && container.binary.empty()) container.binary = chunk;
     at = start + size;
   }

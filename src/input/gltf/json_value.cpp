@@ -28,7 +28,7 @@ std::string escaped(const std::string& name) {
 }
 
 /// A nesting that no real file has. The parser does not recurse, but a deep file is an attack.
-constexpr int kMaxDepth = 200;
+constexpr int kMaxJsonDepth = 200;
 
 }  // namespace
 
@@ -173,9 +173,9 @@ namespace {
 
 json parse(std::string_view text, const std::string& file) {
   const auto refuse_depth = [&](int depth, json::parse_event_t, json&) {
-    if (depth > kMaxDepth)
+    if (depth > kMaxJsonDepth)
       throw SceneError({std::make_shared<const std::string>(file), 0, 0},
-                       "the JSON text is nested more than " + std::to_string(kMaxDepth) +
+                       "the JSON text is nested more than " + std::to_string(kMaxJsonDepth) +
                            " levels deep, expected fewer");
     return true;
   };

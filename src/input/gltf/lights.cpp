@@ -8,7 +8,7 @@
 namespace nephroid::gltf {
 namespace {
 
-constexpr double kDegrees = 180 / 3.14159265358979323846;
+constexpr double kDegrees = 180 / kPiDouble;
 
 void add_cone(const JsonValue& light, ParameterList& list) {
   const std::optional<JsonValue> spot = light.find_object("spot");
@@ -99,7 +99,7 @@ std::optional<JsonValue> find_image_based_light(Document& document) {
 /// The mean luminance of the surroundings over pi / Y00 is the first coefficient of the irradiance,
 /// in real spherical harmonics (Ramamoorthi and Hanrahan 2001).
 std::optional<double> mean_luminance(const JsonValue& light) {
-  constexpr double kMeanOfFirst = 0.28209479177387814 / 3.14159265358979323846;
+  constexpr double kMeanOfFirst = 0.28209479177387814 / kPiDouble;
   const std::optional<JsonValue> list = light.find_array("irradianceCoefficients");
   if (!list || list->elements().empty()) return std::nullopt;
   std::vector<float> rgb;

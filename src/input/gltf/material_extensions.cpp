@@ -7,12 +7,6 @@
 namespace nephroid::gltf {
 namespace {
 
-constexpr Color kWhite = {1, 1, 1}, kBlack = {0, 0, 0};
-
-double largest(const Color& c) {
-  return std::max({c[0], c[1], c[2]});
-}
-
 /// The medium in a volume: after `distance` it leaves `color` of white light.
 std::string add_interior(SurfaceInputs& inputs, const JsonValue& volume, const Color& color,
                          double distance) {

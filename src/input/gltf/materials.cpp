@@ -8,14 +8,8 @@
 namespace nephroid::gltf {
 namespace {
 
-constexpr Color kWhite = {1, 1, 1}, kBlack = {0, 0, 0};
-
 Color times(const Color& c, double factor) {
   return {c[0] * factor, c[1] * factor, c[2] * factor};
-}
-
-double largest(const Color& c) {
-  return std::max({c[0], c[1], c[2]});
 }
 
 /// Base colour and alpha of either workflow.

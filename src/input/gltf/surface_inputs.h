@@ -2,12 +2,19 @@
 // texture become one parameter. It must not know which extensions exist.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
 #include "input/gltf/materials.h"
 
 namespace nephroid::gltf {
+
+inline constexpr Color kWhite = {1, 1, 1}, kBlack = {0, 0, 0};
+
+inline double largest(const Color& c) {
+  return std::max({c[0], c[1], c[2]});
+}
 
 /// A number of a material: a factor times the channel of an optional texture.
 struct NumberInput {

@@ -35,7 +35,7 @@ Surface write_rough_diffuse(PluginProperties& p) {
   // the same B, at which roughness 1 is Oren-Nayar's largest.
   const double sigma = (alpha.type == "texture" ? 0.2 : alpha.numbers[0]) / std::sqrt(2.0);
   const double b = 0.45 * sigma * sigma / (sigma * sigma + 0.09);
-  constexpr double kFujii = 0.5 - 2.0 / (3.0 * 3.14159265358979323846);
+  constexpr double kFujii = 0.5 - 2.0 / (3.0 * kPiDouble);
   add_float(m.parameters, "base_diffuse_roughness", std::min(1.0, b / (1 - kFujii * b)));
   return surface_of(p, std::move(m), true);
 }

@@ -12,8 +12,7 @@ namespace {
 struct BsdfRow : Plugin {
   BsdfWriter write = nullptr;
 };
-constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused,
-                        kApproximated = PluginSupport::kApproximated;
+using enum PluginSupport;
 constexpr const char* kPolarized = "polarization is not supported";
 constexpr BsdfRow kBsdfs[] = {
     {{"bsdf", "diffuse"}, write_diffuse},

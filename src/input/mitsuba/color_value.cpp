@@ -146,7 +146,7 @@ ColorValue read_black_body(PluginProperties& p, ColorUse) {
 struct SpectrumRow : Plugin {
   SpectrumReader read = nullptr;
 };
-constexpr PluginSupport kLoaded = PluginSupport::kLoaded;
+using enum PluginSupport;
 constexpr SpectrumRow kSpectra[] = {
     {{"spectrum", "uniform", kLoaded, "emission has equal energy at all wavelengths"},
      read_uniform},

@@ -78,8 +78,7 @@ void add_name(const std::string& name, ParameterSet& light) {
 struct EmitterRow : Plugin {
   void (*write)(PluginProperties& properties, LightDescription& light) = nullptr;
 };
-constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused,
-                        kApproximated = PluginSupport::kApproximated;
+using enum PluginSupport;
 constexpr EmitterRow kEmitters[] = {
     {{"emitter", "area", kLoaded, "on shapes; a bitmap as radiance is mapped by uv"}},
     {{"emitter", "point"}, write_point},

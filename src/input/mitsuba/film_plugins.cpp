@@ -9,8 +9,7 @@
 namespace nephroid::mitsuba {
 namespace {
 
-constexpr PluginSupport kLoaded = PluginSupport::kLoaded,
-                        kApproximated = PluginSupport::kApproximated;
+using enum PluginSupport;
 
 constexpr Plugin kFilms[] = {
     {"film", "hdrfilm"},

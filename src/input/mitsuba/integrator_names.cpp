@@ -12,7 +12,7 @@ namespace {
 struct IntegratorRow : Plugin {
   const char* pbrt = nullptr;  ///< name of pbrt-v4; null if there is none
 };
-constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kIgnored = PluginSupport::kIgnored;
+using enum PluginSupport;
 constexpr const char* kNoMethod = "this renderer has no such method";
 constexpr IntegratorRow kIntegrators[] = {
     {{"integrator", "path"}, "path"},

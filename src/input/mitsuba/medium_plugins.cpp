@@ -11,8 +11,7 @@
 namespace nephroid::mitsuba {
 namespace {
 
-constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused,
-                        kApproximated = PluginSupport::kApproximated;
+using enum PluginSupport;
 
 constexpr const char* kNoSuchPhase = "this renderer has no such phase function";
 constexpr Plugin kPhases[] = {

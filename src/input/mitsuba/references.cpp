@@ -7,7 +7,7 @@
 namespace nephroid::mitsuba {
 namespace {
 
-constexpr int kMaxDepth = 128;  ///< of objects in objects, through references
+constexpr int kMaxReferenceDepth = 128;  ///< of objects in objects, through references
 
 /// A walk over all objects, each once. The depth of an object is that of what it holds, so that
 /// chains of references are found wherever the walk meets them first.
@@ -26,10 +26,10 @@ class Resolver {
     int below = 0;
     for (Child& child : object.children) {
       if (!child.object) child.object = ids_.find(child.reference, child.where);
-      if (depth > kMaxDepth) refuse(child.where);
+      if (depth > kMaxReferenceDepth) refuse(child.where);
       // The tree is ours until the document is returned.
       below = std::max(below, resolve(const_cast<Object&>(*child.object), depth + 1));
-      if (below > kMaxDepth) refuse(child.where);
+      if (below > kMaxReferenceDepth) refuse(child.where);
     }
     return depths_[&object] = below + 1;
   }
@@ -38,7 +38,7 @@ class Resolver {
   static constexpr int kInProgress = 0;
 
   [[noreturn]] static void refuse(const SourceLocation& where) {
-    throw SceneError(where, "objects are nested more than " + std::to_string(kMaxDepth) +
+    throw SceneError(where, "objects are nested more than " + std::to_string(kMaxReferenceDepth) +
                                 " levels deep, expected fewer");
   }
 

@@ -16,8 +16,6 @@
 namespace nephroid::mitsuba {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
-
 /// Tangent of half of the angle of view along the film's width.
 double half_width(PluginProperties& p, double aspect) {
   std::string axis = p.text("fov_axis", "x");
@@ -91,7 +89,7 @@ void write_orthographic(PluginProperties& p, CameraDescription& camera, double a
 struct SensorRow : Plugin {
   void (*write)(PluginProperties& properties, CameraDescription& camera, double aspect) = nullptr;
 };
-constexpr PluginSupport kRefused = PluginSupport::kRefused;
+using enum PluginSupport;
 constexpr const char* kNoPicture = "it measures light without a picture";
 constexpr SensorRow kSensors[] = {
     {{"sensor", "perspective"}, write_perspective},

@@ -10,7 +10,7 @@
 namespace nephroid::mitsuba {
 namespace {
 
-constexpr uint16_t kMagic = 0x041c;
+constexpr uint16_t kSerializedMagic = 0x041c;
 enum Flags : uint32_t {
   kNormals = 0x0001,
   kUvs = 0x0002,
@@ -35,7 +35,7 @@ Value value_at(std::string_view bytes, size_t offset) {
 }
 
 int version_at(std::string_view bytes, size_t offset) {
-  if (value_at<uint16_t>(bytes, offset) != kMagic)
+  if (value_at<uint16_t>(bytes, offset) != kSerializedMagic)
     throw BadFile("the bytes at a mesh are not 1c 04, expected a .serialized file");
   const int version = value_at<uint16_t>(bytes, offset + 2);
   if (version != 3 && version != 4)

@@ -19,7 +19,7 @@ using Shapes = std::vector<ShapeDescription>;
 struct ShapeRow : Plugin {
   GeometryWriter geometry = nullptr;  ///< null for shapes of shapes
 };
-constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused;
+using enum PluginSupport;
 constexpr const char* kNoSuchShape = "this renderer has no such shape";
 constexpr ShapeRow kShapes[] = {
     {{"shape", "obj", kLoaded,

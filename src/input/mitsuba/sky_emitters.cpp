@@ -15,7 +15,6 @@
 namespace nephroid::mitsuba {
 namespace {
 
-constexpr double kPiDouble = 3.14159265358979323846;
 constexpr double kSunDiameter = 0.5358 * kPiDouble / 180;
 constexpr int kWidth = 512, kHeight = 256;  ///< pixels of the sky's image, as in Mitsuba
 

@@ -2,11 +2,10 @@
 
 #include <cmath>
 
+#include "core/math.h"
+
 namespace nephroid::mitsuba {
 namespace {
-
-constexpr double kPiDouble = 3.14159265358979323846;
-constexpr double kDegree = kPiDouble / 180;
 
 /// Julian day number at noon of a date in the Gregorian calendar (Fliegel & van Flandern 1968).
 int julian_day(int year, int month, int day) {

@@ -163,7 +163,7 @@ struct TextureRow : Plugin {
   void (*write)(PluginProperties& properties, TextureDescription& texture,
                 TextureUse use) = nullptr;
 };
-constexpr PluginSupport kLoaded = PluginSupport::kLoaded, kRefused = PluginSupport::kRefused;
+using enum PluginSupport;
 constexpr const char* kOfMeshes = "those of .serialized and PLY meshes; others are white";
 constexpr const char* kNoSuchTexture = "this renderer has no such texture";
 constexpr TextureRow kTextures[] = {

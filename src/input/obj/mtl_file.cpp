@@ -74,7 +74,7 @@ class MtlReader {
 
 void MtlReader::read_line(std::string_view text) {
   const std::string keyword(take_word(&text));
-  if (keyword == "newmtl") return begin_material(std::string(trimmed(text)));
+  if (keyword == "newmtl") return begin_material(std::string(stripped(text)));
   const MtlKeyword* known = find_mtl_keyword(keyword);
   if (!known || known->values == MtlKeyword::Values::kNone) return ignored_.add(keyword, line_);
   if (!current_) return warn("\"" + keyword + "\" is ignored: it stands before the first newmtl");
@@ -180,7 +180,7 @@ void MtlReader::read_map(const std::string& name, std::string_view text) {
     text = rest;
     read_option(*option, &text, &map);
   }
-  map.file = std::string(trimmed(text));
+  map.file = std::string(stripped(text));
   if (map.file.empty()) return warn("\"" + name + "\" names no file and is ignored");
   std::replace(map.file.begin(), map.file.end(), '\\', '/');
   current_->maps[name] = std::move(map);

@@ -9,7 +9,7 @@
 namespace nephroid {
 namespace {
 
-using Values = MtlKeyword::Values;
+using MtlValues = MtlKeyword::Values;
 
 struct Row {
   MtlKeyword keyword;
@@ -17,13 +17,13 @@ struct Row {
 };
 
 constexpr Row color(const char* name, const char* fallback, const char* note) {
-  return {{Values::kColor, name}, {"r g b", name, fallback, "", note}};
+  return {{MtlValues::kColor, name}, {"r g b", name, fallback, "", note}};
 }
 constexpr Row number(const char* name, const char* fallback, const char* note) {
-  return {{Values::kNumber, name}, {"number", name, fallback, "", note}};
+  return {{MtlValues::kNumber, name}, {"number", name, fallback, "", note}};
 }
 constexpr Row map(const char* name, const char* note, const char* canonical = nullptr) {
-  return {{Values::kMap, canonical ? canonical : name}, {"file", name, "", "", note}};
+  return {{MtlValues::kMap, canonical ? canonical : name}, {"file", name, "", "", note}};
 }
 constexpr Row ignored(const char* name, const char* note) {
   return {{}, {"", name, "", "", note, Support::kWarned}};

@@ -90,7 +90,7 @@ ObjFile ObjReader::read(std::string_view bytes) {
 
 void ObjReader::read_line(std::string_view text) {
   const std::string_view keyword = take_word(&text);
-  const std::string rest(keyword == "f" || keyword[0] == 'v' ? "" : trimmed(text));
+  const std::string rest(keyword == "f" || keyword[0] == 'v' ? "" : stripped(text));
   if (keyword == "v") return read_position(text);
   if (keyword == "vn") return read_normal(text);
   if (keyword == "vt") return read_uv(text);

@@ -32,6 +32,6 @@ class TextLines {
 std::string_view take_word(std::string_view* text);
 
 /// `text` without blanks at both ends.
-std::string_view trimmed(std::string_view text);
+std::string_view stripped(std::string_view text);
 
 }  // namespace nephroid

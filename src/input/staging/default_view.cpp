@@ -11,7 +11,6 @@
 namespace nephroid {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kFieldOfView = 35;                           ///< degrees
 constexpr double kCameraAzimuth = 35, kCameraElevation = 22;  ///< degrees, azimuth from the front
 constexpr double kKeyAzimuth = -30, kKeyElevation = 50;

@@ -10,7 +10,6 @@
 namespace nephroid {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kShare = 0.75;  ///< share of the lit surfaces that get less
 
 /// The field of view of a camera of glTF or of the default view. It knows nothing of shapes, so

@@ -8,8 +8,6 @@
 namespace nephroid {
 namespace {
 
-constexpr double kPiDouble = 3.14159265358979323846;
-constexpr double kDegree = kPiDouble / 180;
 constexpr double kImageLuminance = 0.5;  ///< assumed mean of images of surroundings, cd/m^2
 constexpr double kGlowShare = 0.25;      ///< assumed mean of images on shapes over their factor
 

@@ -14,7 +14,7 @@ namespace {
 /// Takes the points of a shape, in its own space.
 using PointVisit = std::function<void(const Vec3d&)>;
 
-bool is_finite(const Vec3d& p) {
+bool is_finite_point(const Vec3d& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
@@ -77,7 +77,7 @@ struct ShapeVisit {
   void (*visit)(const ParameterSet&, SceneFiles&, const PointVisit&);
 };
 
-constexpr ShapeVisit kTypes[] = {
+constexpr ShapeVisit kVisits[] = {
     {"trianglemesh", visit_points}, {"plymesh", visit_ply},       {"bilinearmesh", visit_points},
     {"loopsubdiv", visit_points},   {"curve", visit_curve},       {"sphere", visit_sphere},
     {"disk", visit_disk},           {"cylinder", visit_cylinder},
@@ -86,19 +86,19 @@ constexpr ShapeVisit kTypes[] = {
 /// Calls `visit` for the finite points of `p` at both ends of a motion.
 void visit_moved(const Vec3d& p, const TransformDescription& transform, const PointVisit& visit) {
   const Vec3d start = p * transform.start;
-  if (is_finite(start)) visit(start);
+  if (is_finite_point(start)) visit(start);
   if (!transform.is_animated()) return;
   const Vec3d end = p * transform.end;
-  if (is_finite(end)) visit(end);
+  if (is_finite_point(end)) visit(end);
 }
 
 void visit_shapes(const std::vector<ShapeDescription>& shapes, SceneFiles& files,
                   const PointVisit& visit) {
   for (const ShapeDescription& shape : shapes) {
     const auto* const row =
-        std::find_if(std::begin(kTypes), std::end(kTypes),
+        std::find_if(std::begin(kVisits), std::end(kVisits),
                      [&](const ShapeVisit& known) { return shape.type == known.type; });
-    if (row == std::end(kTypes)) continue;  // an error of the table of shapes
+    if (row == std::end(kVisits)) continue;  // an error of the table of shapes
     row->visit(shape.parameters, files,
                [&](const Vec3d& p) { visit_moved(p, shape.transform, visit); });
   }

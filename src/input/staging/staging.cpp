@@ -40,7 +40,7 @@ double exposure_time(const SceneDescription& scene) {
 }
 
 /// Illuminance of a white surface with the value 1 at iso 100 and a second of exposure.
-constexpr double kIlluminanceOfOne = 3.14159265358979323846;
+constexpr double kIlluminanceOfOne = kPiDouble;
 
 /// Gives a white surface that faces the file's lights the value 1, about.
 void choose_exposure(SceneDescription* scene, Diagnostics& diagnostics) {

@@ -15,8 +15,6 @@
 namespace nephroid {
 namespace {
 
-constexpr double kPiDouble = 3.14159265358979323846;
-constexpr double kDegree = kPiDouble / 180;
 constexpr double kSunAngle = 0.53;  ///< angular diameter, degrees
 constexpr double kLowestSun = 0.1;  ///< elevation of a sun on the horizon, degrees
 constexpr double kTurbidity = 3;    ///< clear air

@@ -16,14 +16,14 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kEyeStream = 0x62647065;    // "bdpe"
-constexpr uint64_t kLightStream = 0x6264706c;  // "bdpl"
+constexpr uint64_t kBdptEyeStream = 0x62647065;    // "bdpe"
+constexpr uint64_t kBdptLightStream = 0x6264706c;  // "bdpl"
 
 /// Limit of pixels per strip of rows, or one row. Splats are added once per strip.
 constexpr int kMaxPixels = 1 << 16;
 
 /// Splats and counts of a row of pixels.
-struct Row {
+struct PixelRow {
   std::vector<Splat> splats;
   uint64_t rays = 0, useful = 0;
   TechniqueCounter::Row techniques;
@@ -49,15 +49,16 @@ class PairRound {
     const int strip = std::max(1, kMaxPixels / std::max(1, b.width()));
     for (int begin = b.y0; begin < b.y1; begin += strip) {
       std::vector<Splat> splats;
-      const auto trace_row = [&](Row& row, int64_t y, int64_t) {
+      const auto trace_row = [&](PixelRow& row, int64_t y, int64_t) {
         render_row(begin + static_cast<int>(y), row);
       };
-      ordered_reduce<Row>(control, std::min(strip, b.y1 - begin), 1, trace_row, [&](Row&& row) {
-        splats.insert(splats.end(), row.splats.begin(), row.splats.end());
-        statistics.rays += row.rays;
-        statistics.light_paths_useful += row.useful;
-        techniques_.add(row.techniques);
-      });
+      ordered_reduce<PixelRow>(control, std::min(strip, b.y1 - begin), 1, trace_row,
+                               [&](PixelRow&& row) {
+                                 splats.insert(splats.end(), row.splats.begin(), row.splats.end());
+                                 statistics.rays += row.rays;
+                                 statistics.light_paths_useful += row.useful;
+                                 techniques_.add(row.techniques);
+                               });
       techniques_.add_splats(splats, 1.0 / settings_.light_paths);
       lamps_.add_splats(splats, film_.format(), 1.0 / settings_.light_paths);
       buffer.add(splats);
@@ -71,7 +72,7 @@ class PairRound {
   }
 
  private:
-  void render_row(int y, Row& row) {
+  void render_row(int y, PixelRow& row) {
     const PixelBounds& b = film_.bounds();
     LightSubpath path;
     std::vector<CameraSplat> seen;
@@ -86,10 +87,10 @@ class PairRound {
   }
 
   void render_pixel(int x, int y, LightSubpath& path, std::vector<CameraSplat>& seen,
-                    PartSums& light, LampCounter::Slice& lamps, Row& row) {
+                    PartSums& light, LampCounter::Slice& lamps, PixelRow& row) {
     const Scene& scene = settings_.scene;
     const FilmSettings& film = film_.settings();
-    PathSampler eye(eye_point_, hash_combine(key_.seed, kEyeStream, x, y, index_ >> 32));
+    PathSampler eye(eye_point_, hash_combine(key_.seed, kBdptEyeStream, x, y, index_ >> 32));
     eye.start_dimension(dimensions::kWavelength);
     const SampledWavelengths lambda =
         SampledWavelengths::sample_visible(wavelength_number(scene, eye.get_1d()));
@@ -98,7 +99,8 @@ class PairRound {
     const SensorWeights weights =
         sensor_weights(lambda, *film.color_space, film.imaging_ratio, film.white_balance);
 
-    PathSampler sampler(light_point_, hash_combine(key_.seed, kLightStream, x, y, index_ >> 32));
+    PathSampler sampler(light_point_,
+                        hash_combine(key_.seed, kBdptLightStream, x, y, index_ >> 32));
     row.rays += trace_light_path(settings_, lambda, camera.u_time, sampler, &path, &seen, nullptr,
                                  kEyePathDimensions)
                     .rays;
@@ -131,7 +133,7 @@ class PairRound {
   std::vector<Rgb> values_;  ///< [pixel * parts + part]
 };
 
-constexpr const EstimatorSetting* kSettings[] = {&kTechniqueSetting, &kSpecularTreesSetting};
+constexpr const EstimatorSetting* kBdptSettings[] = {&kTechniqueSetting, &kSpecularTreesSetting};
 
 }  // namespace
 
@@ -141,7 +143,7 @@ constinit const EstimatorDescriptor Bidirectional::kDescriptor = {
                        "ways",
                .starts_at_lights = true,
                .why_never_sampled = out_of_reach_of_connections},
-    .settings = kSettings,
+    .settings = kBdptSettings,
     .bytes_per_pixel =
         [](const PixelMemoryInput& need) {
           return PixelBytes{.of_pass = bytes_per_pixel(need.parts)};

@@ -9,16 +9,16 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kLightStream = 0x76636d6c;  // "vcml"
-constexpr int64_t kChunk = 1024;
-constexpr int64_t kGroup = 32 * kChunk;
+constexpr uint64_t kVcmLightStream = 0x76636d6c;  // "vcml"
+constexpr int64_t kBatchChunk = 1024;
+constexpr int64_t kBatchGroup = 32 * kBatchChunk;
 
 }  // namespace
 
 template <class F>
 void LightBatches::at_path(int64_t j, F&& f) const {
   const uint64_t number = uint64_t{pass_.trace.key.pass} * config_.light_paths + j;
-  LightPathSequence sequence{hash_combine(config_.seed, kLightStream), kLightPathDimensions};
+  LightPathSequence sequence{hash_combine(config_.seed, kVcmLightStream), kLightPathDimensions};
   if (config_.number_varies) sequence.variant = config_.light_paths;
   sequence.at(number, [&](PathSampler& sampler) {
     f(sampler, with_own_hero(pass_.trace.lambda, config_.seed, number));
@@ -69,7 +69,7 @@ void LightBatches::reserve(std::vector<Photon>& photons, std::span<const Chunk> 
   const double of_path = static_cast<double>(needed) / static_cast<double>(begin_ - batch_begin);
   const double all = of_path * static_cast<double>(config_.light_paths - batch_begin);
   // The group that exceeds the limit is kept as a whole.
-  const double most = static_cast<double>(config_.memory_photons) + of_path * kGroup;
+  const double most = static_cast<double>(config_.memory_photons) + of_path * kBatchGroup;
   photons.reserve(std::max(needed, static_cast<size_t>(kMemorySlack * std::min(all, most))));
 }
 
@@ -78,9 +78,9 @@ std::vector<Photon> LightBatches::next(const std::function<void(std::span<const 
   const int64_t batch_begin = begin_;
   std::vector<Photon> photons;
   while (!empty() && static_cast<int64_t>(photons.size()) < config_.memory_photons) {
-    const int64_t count = std::min(kGroup, config_.light_paths - begin_);
+    const int64_t count = std::min(kBatchGroup, config_.light_paths - begin_);
     std::vector<Chunk> chunks = chunk_results<Chunk>(
-        *pass_.trace.control, count, kChunk,
+        *pass_.trace.control, count, kBatchChunk,
         [&](Chunk& chunk, int64_t b, int64_t e) { trace_chunk(begin_ + b, begin_ + e, chunk); });
     begin_ += count;
     reserve(photons, chunks, batch_begin);

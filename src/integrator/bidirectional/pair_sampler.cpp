@@ -10,8 +10,8 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kEyeStream = 0x76636d65;   // "vcme"
-constexpr uint64_t kPairStream = 0x76636d70;  // "vcmp"
+constexpr uint64_t kVcmEyeStream = 0x76636d65;  // "vcme"
+constexpr uint64_t kPairStream = 0x76636d70;    // "vcmp"
 
 /// Number of pixels: all of the film; without a film those of the first lattice.
 size_t pixels_of(const FilmFormat& format, const Film* film) {
@@ -91,7 +91,7 @@ SpecularRoot::Leaves PairSampler::leaves_at(int x, int y) const {
 }
 
 uint64_t PairSampler::seed_of(int x, int y, int k) const {
-  const uint64_t of_pixel = hash_combine(in.seed, kEyeStream, x, y);
+  const uint64_t of_pixel = hash_combine(in.seed, kVcmEyeStream, x, y);
   return in.independent_samples ? hash_combine(of_pixel, k) : of_pixel;
 }
 

@@ -11,7 +11,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr const EstimatorSetting* kSettings[] = {&kTechniqueSetting, &kSpecularTreesSetting};
+constexpr const EstimatorSetting* kVcmSettings[] = {&kTechniqueSetting, &kSpecularTreesSetting};
 
 template <bool kConnects>
 PixelBytes bytes_of(const PixelMemoryInput& need) {
@@ -25,7 +25,7 @@ constinit const EstimatorDescriptor VertexConnectionMerging::kDescriptor = {
                .help = "vertex connection and merging: bdpt, and photons merged at all vertices",
                .starts_at_lights = true,
                .why_never_sampled = out_of_reach_of_both},
-    .settings = kSettings,
+    .settings = kVcmSettings,
     .merges_with_radius = true,
     .keeps_photons = true,
     .bytes_per_pixel = bytes_of<true>,
@@ -38,7 +38,7 @@ constinit const EstimatorDescriptor BidirectionalPhotonMapping::kDescriptor = {
                .help = "bidirectional photon mapping: vcm without connections of two walks",
                .starts_at_lights = true,
                .why_never_sampled = out_of_reach_of_merging},
-    .settings = kSettings,
+    .settings = kVcmSettings,
     .merges_with_radius = true,
     .keeps_photons = true,
     .bytes_per_pixel = bytes_of<false>,

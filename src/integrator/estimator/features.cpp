@@ -9,7 +9,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kStream = 0x66656174;  // "feat"
+constexpr uint64_t kFeatureStream = 0x66656174;  // "feat"
 
 // The film's response to a flat spectrum of 1, averaged over the wavelengths of a path.
 Rgb response_to_white(const FilmSettings& settings) {
@@ -72,7 +72,7 @@ void FeatureEstimator::render_pass(const PassKey& key, const Learned*, const Sce
     const int y = run.y;
     for (int i = 0; i < run.count; ++i) {
       const int x = run.x + i * run.step;
-      PathSampler sampler(point, hash_combine(key.seed, kStream, x, y));
+      PathSampler sampler(point, hash_combine(key.seed, kFeatureStream, x, y));
       sampler.start_dimension(dimensions::kWavelength);
       const SampledWavelengths lambda =
           SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));

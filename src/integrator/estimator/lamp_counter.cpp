@@ -7,12 +7,12 @@ namespace nephroid {
 namespace {
 
 /// As in TechniqueCounter: later passes are not slowed down.
-constexpr uint32_t kCountedPasses = 8;
+constexpr uint32_t kLampPasses = 8;
 
 }  // namespace
 
 LampCounter::LampCounter(const SceneSymbols& symbols, uint32_t pass, bool counts)
-    : symbols_(symbols), counts_(counts && pass < kCountedPasses) {
+    : symbols_(symbols), counts_(counts && pass < kLampPasses) {
   if (counts_) lamps_.resize(symbols.lamp_names().size());
 }
 

@@ -11,7 +11,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kStream = 0x6c6561726e;  // "learn"
+constexpr uint64_t kGuidingStream = 0x6c6561726e;  // "learn"
 constexpr uint32_t kRounds = 3;
 /// Photon paths per round. A round that found little is followed by a larger one.
 constexpr int64_t kPaths = 1 << 14, kMaxPaths = 1 << 18;
@@ -45,8 +45,8 @@ GuidedPhotons guide_photons(uint64_t seed, const Scene& scene, const FilmFormat&
   for (uint32_t round = 0; round < kRounds; ++round) {
     IntegratorOptions of_round = options;
     of_round.photons_per_pass = paths;
-    PhotonPass pass =
-        start_photon_pass({hash_combine(seed, kStream), round}, scene, film, of_round, control);
+    PhotonPass pass = start_photon_pass({hash_combine(seed, kGuidingStream), round}, scene, film,
+                                        of_round, control);
     // The camera finds casters before any photon has met one.
     if (round == 0) {
       seen = caustic_casters(scene, film, pass, of_round);

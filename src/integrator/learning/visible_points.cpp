@@ -10,7 +10,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kStream = 0x7369676874;  // "sight"
+constexpr uint64_t kVisiblePointStream = 0x7369676874;  // "sight"
 /// Approximate limit of camera walks.
 constexpr int kWalks = 1 << 13;
 /// Largest number of rough vertices of a walk that looks for casters.
@@ -92,7 +92,7 @@ Found<T> walk_from(const Scene& scene, const SomePixels& pixels, const PhotonPas
                    const Run& run) {
   std::vector<Found<T>> rows(pixels.rows);
   pixels.for_each(*pass.trace.control, [&](size_t row, int x, int y) {
-    PathSampler sampler(pass.point, hash_combine(pass.trace.key.seed, kStream, x, y));
+    PathSampler sampler(pass.point, hash_combine(pass.trace.key.seed, kVisiblePointStream, x, y));
     CameraPath path = start_merging_path(scene, x, y, sampler, pass);
     if (!(path.camera_weight > 0)) return;
     run(path, sampler, rows[row].points);

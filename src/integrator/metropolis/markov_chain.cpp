@@ -39,7 +39,7 @@ MarkovSample::Origin independent_numbers(uint64_t seed, uint64_t stream, uint64_
   };
 }
 
-struct Chunk {
+struct ChainChunk {
   std::vector<Splat> splats, bad;
   ChainStatistics statistics;
 };
@@ -66,7 +66,7 @@ class ChainPass {
     const int64_t at_once = std::max<int64_t>(1, kPathsAtOnce / settings_.mutations);
     for (int64_t first = 0; first < settings_.chains; first += at_once) {
       const int64_t count = std::min(at_once, settings_.chains - first);
-      std::vector<Chunk> chunks(count);
+      std::vector<ChainChunk> chunks(count);
       parallel_chunks(control_, count, 1,
                       [&](int64_t c, int64_t, int64_t) { run_chain(first + c, chunks[c]); });
       take(chunks);
@@ -81,7 +81,7 @@ class ChainPass {
   }
 
   /// [Z5] Adds light that counts `times` times.
-  void expose(const FoundLight& found, double target, double times, Chunk& out) const {
+  void expose(const FoundLight& found, double target, double times, ChainChunk& out) const {
     if (!(times > 0)) return;
     const double scale = times / (independent_ + mutations_ * target / balance_);
     for (const Splat& splat : found.splats)
@@ -92,9 +92,9 @@ class ChainPass {
     targets_.resize(settings_.bootstrap);
     for (int64_t first = 0; first < settings_.bootstrap; first += kPathsAtOnce) {
       const int64_t count = std::min(kPathsAtOnce, settings_.bootstrap - first);
-      std::vector<Chunk> chunks(chunk_count(count, kPathsPerChunk));
+      std::vector<ChainChunk> chunks(chunk_count(count, kPathsPerChunk));
       parallel_chunks(control_, count, kPathsPerChunk, [&](int64_t c, int64_t begin, int64_t end) {
-        Chunk& out = chunks[c];
+        ChainChunk& out = chunks[c];
         const std::unique_ptr<PathFunction> function = make_();
         FoundLight found;
         MarkovSample numbers(settings_.small_step);
@@ -138,7 +138,7 @@ class ChainPass {
     return total;
   }
 
-  void run_chain(int64_t number, Chunk& out) const {
+  void run_chain(int64_t number, ChainChunk& out) const {
     const int64_t start = starts_[number];
     const std::unique_ptr<PathFunction> function = make_();
     MarkovChain chain(bootstrap_numbers(start),
@@ -169,9 +169,9 @@ class ChainPass {
     }
   }
 
-  void take(const std::vector<Chunk>& chunks) {
+  void take(const std::vector<ChainChunk>& chunks) {
     std::vector<Splat> splats;
-    for (const Chunk& chunk : chunks) {
+    for (const ChainChunk& chunk : chunks) {
       splats.insert(splats.end(), chunk.splats.begin(), chunk.splats.end());
       statistics_.add(chunk.statistics);
       buffer_.add(chunk.bad);  // the buffer counts non-finite splats

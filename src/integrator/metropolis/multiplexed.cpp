@@ -26,7 +26,7 @@ constexpr double kGuessedLength = 0.25, kGuessedTechnique = 0.5;
 constexpr int kMaxLengths = 1000;
 
 /// Settings shared by the paths of a pass.
-struct Pass {
+struct MultiplexedPass {
   PairSettings pair;
   const FilmSettings& film;
   FilmArea area;
@@ -36,7 +36,7 @@ struct Pass {
 /// [Z7] Makes one path by one technique.
 class TechniquePaths : public PathFunction {
  public:
-  explicit TechniquePaths(const Pass& pass)
+  explicit TechniquePaths(const MultiplexedPass& pass)
       : pass_(pass), pair_(pass.pair), light_(*pair_.owned.routes, pair_.owned.group) {}
 
   void evaluate(MarkovSample& numbers, FoundLight& found) override {
@@ -90,7 +90,7 @@ class TechniquePaths : public PathFunction {
     for (size_t part = 0; part < colors.size(); ++part) found.add(film, part, colors[part]);
   }
 
-  const Pass& pass_;
+  const MultiplexedPass& pass_;
   PairSettings pair_;
   PartSums light_;
   LightSubpath path_;
@@ -186,12 +186,13 @@ Multiplexed::Multiplexed(OwnedRoutes owned, const IntegratorOptions& options)
 namespace {
 
 /// Settings of a pass, with the kinds of the guess.
-Pass start_pass(const Scene& scene, const OwnedRoutes& owned, const FilmFormat& film,
-                const IntegratorOptions& options, const CameraView& view, const PassKey& key) {
-  Pass pass{{scene, owned},
-            film.settings(),
-            FilmArea(film.bounds(), *scene.filter),
-            KindChoice(options.max_depth)};
+MultiplexedPass start_pass(const Scene& scene, const OwnedRoutes& owned, const FilmFormat& film,
+                           const IntegratorOptions& options, const CameraView& view,
+                           const PassKey& key) {
+  MultiplexedPass pass{{scene, owned},
+                       film.settings(),
+                       FilmArea(film.bounds(), *scene.filter),
+                       KindChoice(options.max_depth)};
   pass.pair.view = scene.camera->connects() ? &view : nullptr;
   pass.pair.max_depth = options.max_depth;
   // N of [W9]: each path has one light path and one place of the film.
@@ -200,7 +201,7 @@ Pass start_pass(const Scene& scene, const OwnedRoutes& owned, const FilmFormat& 
   return pass;
 }
 
-PathFunctionMaker maker_of(const Pass& pass) {
+PathFunctionMaker maker_of(const MultiplexedPass& pass) {
   return [&pass] { return std::make_unique<TechniquePaths>(pass); };
 }
 
@@ -210,7 +211,7 @@ std::shared_ptr<const Learned> Multiplexed::learn(const Scene& scene, const Film
                                                   uint64_t seed, PassControl& control) const {
   const CameraView view(scene, film.bounds());
   // The pilot has the roughness threshold of pass 0, whichever pass needs it.
-  const Pass pass = start_pass(scene, owned_, film, options_, view, {seed, 0});
+  const MultiplexedPass pass = start_pass(scene, owned_, film, options_, view, {seed, 0});
   return LearnedPilot::learn(seed, pass.area, pass.kinds.kinds(), maker_of(pass), control);
 }
 
@@ -223,7 +224,7 @@ void Multiplexed::render_pass(const PassKey& key, const Learned* learned, const 
                               Film& film, PassControl& control) {
   const ChainPilot& pilot = static_cast<const LearnedPilot*>(learned)->pilot();
   const CameraView view(scene, film.bounds());
-  Pass pass = start_pass(scene, owned_, film.format(), options_, view, key);
+  MultiplexedPass pass = start_pass(scene, owned_, film.format(), options_, view, key);
   pass.kinds = KindChoice(pass.kinds, pilot.kinds);
   passes_.render(key, scene, static_cast<int>(owned_.group), pilot, maker_of(pass), film, control);
 }

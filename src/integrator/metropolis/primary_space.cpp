@@ -16,7 +16,7 @@ namespace nephroid {
 namespace {
 
 /// Settings shared by the paths of a pass.
-struct Pass {
+struct PrimarySpacePass {
   const Scene& scene;
   const OwnedRoutes& owned;
   const IntegratorOptions& options;
@@ -27,7 +27,7 @@ struct Pass {
 
 class CameraPaths : public PathFunction {
  public:
-  explicit CameraPaths(const Pass& pass)
+  explicit CameraPaths(const PrimarySpacePass& pass)
       : pass_(pass),
         is_blind_(pass.options.own<PathOptions>().blind_walks),
         light_(*pass.owned.routes, pass.owned.group) {}
@@ -57,7 +57,7 @@ class CameraPaths : public PathFunction {
   }
 
  private:
-  const Pass& pass_;
+  const PrimarySpacePass& pass_;
   const bool is_blind_;
   PartSums light_;
 };
@@ -83,7 +83,7 @@ PrimarySpace::PrimarySpace(OwnedRoutes owned, const IntegratorOptions& options)
 
 namespace {
 
-PathFunctionMaker maker_of(const Pass& pass) {
+PathFunctionMaker maker_of(const PrimarySpacePass& pass) {
   return [&pass] { return std::make_unique<CameraPaths>(pass); };
 }
 
@@ -92,12 +92,12 @@ PathFunctionMaker maker_of(const Pass& pass) {
 std::shared_ptr<const Learned> PrimarySpace::learn(const Scene& scene, const FilmFormat& film,
                                                    uint64_t seed, PassControl& control) const {
   // The pilot has the roughness threshold of pass 0, whichever pass needs it.
-  const Pass pass{scene,
-                  owned_,
-                  options_,
-                  film.settings(),
-                  FilmArea(film.bounds(), *scene.filter),
-                  specular_alpha_of_pass(scene.specular_band, {seed, 0})};
+  const PrimarySpacePass pass{scene,
+                              owned_,
+                              options_,
+                              film.settings(),
+                              FilmArea(film.bounds(), *scene.filter),
+                              specular_alpha_of_pass(scene.specular_band, {seed, 0})};
   return LearnedPilot::learn(seed, pass.area, 1, maker_of(pass), control);
 }
 
@@ -108,12 +108,12 @@ std::shared_ptr<const Learned> PrimarySpace::read_learned(ByteReader& from,
 
 void PrimarySpace::render_pass(const PassKey& key, const Learned* learned, const Scene& scene,
                                Film& film, PassControl& control) {
-  const Pass pass{scene,
-                  owned_,
-                  options_,
-                  film.settings(),
-                  FilmArea(film.bounds(), *scene.filter),
-                  specular_alpha_of_pass(scene.specular_band, key)};
+  const PrimarySpacePass pass{scene,
+                              owned_,
+                              options_,
+                              film.settings(),
+                              FilmArea(film.bounds(), *scene.filter),
+                              specular_alpha_of_pass(scene.specular_band, key)};
   passes_.render(key, scene, static_cast<int>(owned_.group),
                  static_cast<const LearnedPilot*>(learned)->pilot(), maker_of(pass), film, control);
 }

@@ -20,7 +20,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr const EstimatorSetting* kSettings[] = {&kGuideSetting, &kGuideWalksSetting};
+constexpr const EstimatorSetting* kMixedSettings[] = {&kGuideSetting, &kGuideWalksSetting};
 constexpr uint64_t kMeasureStream = 0x6d656173757265;  // "measure"
 /// Required gain of merging more photons. Two passes are a rough estimate: they see neither the
 /// bias of merging nor the gain of camera paths from stratification over later passes.
@@ -56,7 +56,7 @@ constinit const EstimatorDescriptor PathAndPhotons::kDescriptor = {
                .help = "path tracing, and photons of caustics, each weighed against the other",
                .starts_at_lights = true,
                .why_never_sampled = out_of_reach_of_merging},
-    .settings = kSettings,
+    .settings = kMixedSettings,
     .merges_with_radius = true,
     .keeps_photons = true,
     .bytes_per_pixel =

@@ -18,7 +18,7 @@ constexpr uint32_t kTrialPasses = 2, kTrialSamples = 2;
 
 constexpr double kMinPhotonBytes = 96 << 20, kPhotonBytesPerPixel = 44;
 /// The default of memory_photons, with a margin for random variation.
-constexpr double kMaxPhotons = 0.95 * (1 << 20);
+constexpr double kMaxTrialPhotons = 0.95 * (1 << 20);
 /// Bytes per photon, its entry in the grid included.
 constexpr double kBytesOfPhoton = sizeof(Photon) + sizeof(Vec3f) + 24;
 
@@ -33,7 +33,7 @@ float widening(const PairTechniques& techniques, const IntegratorOptions& option
 double max_photons(const FilmFormat& film) {
   const double bytes =
       std::max(kMinPhotonBytes, kPhotonBytesPerPixel * static_cast<double>(film.bounds().area()));
-  return std::min(kMaxPhotons, bytes / kBytesOfPhoton);
+  return std::min(kMaxTrialPhotons, bytes / kBytesOfPhoton);
 }
 
 /// kTrialSamples per pixel in every other tile, none elsewhere.

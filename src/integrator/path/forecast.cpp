@@ -13,13 +13,13 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kStream = 0x666f7265;    // "fore"
-constexpr uint64_t kLearning = 0x63617374;  // "cast"
+constexpr uint64_t kForecastStream = 0x666f7265;  // "fore"
+constexpr uint64_t kCastStream = 0x63617374;      // "cast"
 // Photons are traced in rounds until there are enough records, or kMaxRounds are done.
 constexpr int64_t kPhotonsOfRound = 1 << 16;
 constexpr size_t kEnoughRecords = 1 << 15;
 constexpr int kMaxRounds = 16;
-constexpr int64_t kChunk = 1024;
+constexpr int64_t kForecastChunk = 1024;
 
 /// Records caustic photons: those whose events so far were all S, at least one. Photons that came
 /// by way of other surfaces are left out: a walk in their direction would end on these surfaces.
@@ -154,7 +154,7 @@ void trace_round(const PassKey& key, int64_t photons, const Scene& scene, const 
         chunk.useful += chunk.records.size() > before;
       });
   };
-  ordered_reduce<Chunk>(control, photons, kChunk, trace_chunk, [&](Chunk&& chunk) {
+  ordered_reduce<Chunk>(control, photons, kForecastChunk, trace_chunk, [&](Chunk&& chunk) {
     records.insert(records.end(), chunk.records.begin(), chunk.records.end());
     made.rays += chunk.rays;
     made.photon_paths_useful += chunk.useful;
@@ -162,7 +162,7 @@ void trace_round(const PassKey& key, int64_t photons, const Scene& scene, const 
   made.photon_paths += photons;
 }
 
-constexpr const EstimatorSetting* kSettings[] = {&kSpecularTreesSetting};
+constexpr const EstimatorSetting* kForecastSettings[] = {&kSpecularTreesSetting};
 
 }  // namespace
 
@@ -170,7 +170,7 @@ constinit const EstimatorDescriptor Forecast::kDescriptor = {
     .traits = {.name = "forecast",
                .help = "path tracing that looks where photons foretold that a caustic comes from",
                .why_never_sampled = out_of_reach_of_eye_walks},
-    .settings = kSettings,
+    .settings = kForecastSettings,
     .keeps_photons = true,
     .make = make_estimator<Forecast>,
 };
@@ -185,7 +185,7 @@ std::shared_ptr<const Learned> Forecast::learn(const Scene& scene, const FilmFor
   const bool asked = options_.photons_per_pass > 0;
   const int64_t photons = asked ? options_.photons_per_pass : kPhotonsOfRound;
   for (int k = 0; k < (asked ? 1 : kMaxRounds) && records.size() < kEnoughRecords; ++k)
-    trace_round({hash_combine(seed, kLearning), static_cast<uint32_t>(k)}, photons, scene, owned_,
+    trace_round({hash_combine(seed, kCastStream), static_cast<uint32_t>(k)}, photons, scene, owned_,
                 options_.max_depth, records, made, control);
   made.map = ForecastMap(std::move(records));
   return std::make_shared<LearnedForecast>(std::move(made));
@@ -200,8 +200,9 @@ std::shared_ptr<const Learned> Forecast::read_learned(ByteReader& from, const Fi
 void Forecast::render_pass(const PassKey& key, const Learned* learned, const Scene& scene,
                            Film& film, PassControl& control) {
   const ForecastMap& map = static_cast<const LearnedForecast*>(learned)->map();
-  const PathPass pass{key,     scene,  film, owned_, std::max(1, options_.camera_samples_per_pass),
-                      kStream, control};
+  const PathPass pass{
+      key,    scene, film, owned_, std::max(1, options_.camera_samples_per_pass), kForecastStream,
+      control};
   const SpecularTree tree(scene, owned_, options_.max_depth);
   const bool sees_trees = options_.own<PathOptions>().specular_trees;
   statistics_.rays += trace_paths(pass, [&](int, int, CameraPath& path, const SensorWeights&,

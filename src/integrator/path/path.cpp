@@ -11,8 +11,8 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kStream = 0x70617468;  // "path"
-constexpr const EstimatorSetting* kSettings[] = {&kSpecularTreesSetting};
+constexpr uint64_t kPathStream = 0x70617468;  // "path"
+constexpr const EstimatorSetting* kPathSettings[] = {&kSpecularTreesSetting};
 
 /// True if the group owns some path that is possible in the scene.
 bool owns_any_path(const OwnedRoutes& owned) {
@@ -30,7 +30,7 @@ constinit const EstimatorDescriptor PathEstimator::kDescriptor = {
     .traits = {.name = "path",
                .help = "path tracing with next-event estimation, from the eye",
                .why_never_sampled = out_of_reach_of_eye_walks},
-    .settings = kSettings,
+    .settings = kPathSettings,
     .make = make_estimator<PathEstimator>,
 };
 
@@ -49,7 +49,8 @@ void PathEstimator::render_pass(const PassKey& key, const Learned*, const Scene&
     return;
   }
   LampCounter lamps(*owned_.symbols, key.pass);
-  const PathPass pass{key, scene, film, owned_, samples_per_pass_, kStream, control, true, &lamps};
+  const PathPass pass{key,         scene,   film, owned_, samples_per_pass_,
+                      kPathStream, control, true, &lamps};
   const SpecularTree tree(scene, owned_, options_.max_depth);
   const PathOptions& own = options_.own<PathOptions>();
   statistics_.rays += trace_paths(pass, [&](int x, int y, CameraPath& path,
@@ -78,7 +79,7 @@ void PathEstimator::record_pixel(const PixelPass& pixel, const Learned*, PathTal
   for (int k = 0; k < pixel.camera_paths; ++k) {
     const SobolPoint point =
         eye_point(pixel.key.pass * static_cast<uint32_t>(pixel.camera_paths) + k);
-    PathSampler sampler(point, hash_combine(pixel.key.seed, kStream, pixel.x, pixel.y));
+    PathSampler sampler(point, hash_combine(pixel.key.seed, kPathStream, pixel.x, pixel.y));
     CameraPath path = start_own_path(scene, pixel.x, pixel.y, specular_alpha, sampler);
     const SensorWeights weights = sensor_weights_of(path, film);
     light.clear();

@@ -7,7 +7,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kStream = 0x676c696e74;  // "glint"
+constexpr uint64_t kGlintStream = 0x676c696e74;  // "glint"
 
 /// Σ value² / chance over (Σ value)²: the second moment of a walk that finds each light with its
 /// chance, over the square of its mean.
@@ -36,7 +36,7 @@ void SpecularChainPass::look(int x, int y, const Points& points, std::span<Rgb> 
   const std::vector<SobolPoint>& of_pixel = points[walks.at(x, y)];
   const float share = 1.0f / static_cast<float>(of_pixel.size());
   for (const SobolPoint& point : of_pixel) {
-    PathSampler sampler(point, hash_combine(seed, kStream, b.x0 + x, b.y0 + y));
+    PathSampler sampler(point, hash_combine(seed, kGlintStream, b.x0 + x, b.y0 + y));
     sampler.start_dimension(dimensions::kWavelength);
     const SampledWavelengths lambda =
         SampledWavelengths::sample_visible(wavelength_number(scene, sampler.get_1d()));

@@ -20,11 +20,11 @@ namespace {
 // Dimensions between those of the path's start and those of its vertices.
 constexpr int kStartLens = kLightPathStartDimensions;  // 2
 constexpr int kFirstVertex = kStartLens + 2;
-constexpr uint64_t kStream = 0x6c69676874;  // "light"
+constexpr uint64_t kLightTracingStream = 0x6c69676874;  // "light"
 
 /// Light paths per chunk. Splats are added to the buffer once per group of chunks.
-constexpr int64_t kChunk = 1024;
-constexpr int64_t kGroup = 64 * kChunk;
+constexpr int64_t kTracingChunk = 1024;
+constexpr int64_t kTracingGroup = 64 * kTracingChunk;
 
 /// Settings shared by the light paths of a pass.
 struct LightPass {
@@ -40,7 +40,7 @@ struct LightPass {
   const ConnectionWeight& weight;
 };
 
-struct Chunk {
+struct TracingChunk {
   std::vector<Splat> splats;
   uint64_t rays = 0, useful = 0;
 };
@@ -48,7 +48,8 @@ struct Chunk {
 // Connects one light path to the camera.
 class ConnectingVisitor : public LightWalkVisitor {
  public:
-  ConnectingVisitor(const LightPass& pass, const Emission& emission, float u_time, Chunk& out)
+  ConnectingVisitor(const LightPass& pass, const Emission& emission, float u_time,
+                    TracingChunk& out)
       : LightWalkVisitor(pass.owned, emission),
         pass_(pass),
         flux_(emission.flux),
@@ -138,12 +139,12 @@ class ConnectingVisitor : public LightWalkVisitor {
   const LightPass& pass_;
   const SampledSpectrum flux_;
   CameraConnector camera_;
-  Chunk& out_;
+  TracingChunk& out_;
   bool is_seen_ = false;
 };
 
-void trace_light_path(const LightPass& pass, uint64_t number, Chunk& out) {
-  const LightPathSequence sequence{hash_combine(pass.key.seed, kStream)};
+void trace_light_path(const LightPass& pass, uint64_t number, TracingChunk& out) {
+  const LightPathSequence sequence{hash_combine(pass.key.seed, kLightTracingStream)};
   const LightPathLaunch launch{
       .scene = pass.scene, .specular_alpha = pass.specular_alpha, .max_events = pass.max_depth};
   sequence.at(number, [&](PathSampler& sampler) {
@@ -205,17 +206,18 @@ int64_t light_pass(const PassKey& key, const Scene& scene, const Film& film,
                        options.max_depth,
                        weight};
   const uint64_t first = uint64_t{key.pass} * pass.paths;
-  for (int64_t begin = 0; begin < pass.paths; begin += kGroup) {
-    const int64_t count = std::min(kGroup, pass.paths - begin);
-    const auto trace_chunk = [&](Chunk& chunk, int64_t b, int64_t e) {
+  for (int64_t begin = 0; begin < pass.paths; begin += kTracingGroup) {
+    const int64_t count = std::min(kTracingGroup, pass.paths - begin);
+    const auto trace_chunk = [&](TracingChunk& chunk, int64_t b, int64_t e) {
       for (int64_t j = b; j < e; ++j) trace_light_path(pass, first + (begin + j), chunk);
     };
     std::vector<Splat> found;
-    ordered_reduce<Chunk>(control, count, kChunk, trace_chunk, [&](Chunk&& chunk) {
-      found.insert(found.end(), chunk.splats.begin(), chunk.splats.end());
-      statistics.rays += chunk.rays;
-      statistics.light_paths_useful += chunk.useful;
-    });
+    ordered_reduce<TracingChunk>(
+        control, count, kTracingChunk, trace_chunk, [&](TracingChunk&& chunk) {
+          found.insert(found.end(), chunk.splats.begin(), chunk.splats.end());
+          statistics.rays += chunk.rays;
+          statistics.light_paths_useful += chunk.useful;
+        });
     buffer.add(found);
     statistics.splats += found.size();
   }

@@ -52,8 +52,8 @@ void LearnedMap::add_to(EstimatorStatistics& s) const {
         "; it is made once, not in every pass (-D map-photons=N, -D memory-photons=N)");
 }
 
-constexpr uint64_t kStream = 0x706d6170;  // "pmap"
-constexpr uint32_t kSets = 16;            // a power of two, to stratify wavelengths over sets
+constexpr uint64_t kPhotonMapStream = 0x706d6170;  // "pmap"
+constexpr uint32_t kSets = 16;  // a power of two, to stratify wavelengths over sets
 /// Default of the largest radius of an estimate, in footprints.
 constexpr float kDefaultMaxRadius = 16.0f;
 
@@ -84,7 +84,7 @@ const EstimatorSetting kNearestSetting = {
       return std::to_string(options.own<PhotonMapOptions>().nearest_photons);
     }};
 
-constexpr const EstimatorSetting* kSettings[] = {&kMapPhotonsSetting, &kNearestSetting};
+constexpr const EstimatorSetting* kPhotonMapSettings[] = {&kMapPhotonsSetting, &kNearestSetting};
 
 }  // namespace
 
@@ -96,7 +96,7 @@ constinit const EstimatorDescriptor PhotonMap::kDescriptor = {
                .starts_at_lights = true,
                .one_route_each = true},
     .capabilities = {.consistent = false, .learned_is_light = true},
-    .settings = kSettings,
+    .settings = kPhotonMapSettings,
     .keeps_photons = true,
     .bytes_per_pixel =
         [](const PixelMemoryInput& need) {
@@ -153,7 +153,7 @@ std::shared_ptr<const Learned> PhotonMap::read_learned(ByteReader& from, const F
 }
 
 uint64_t PhotonMap::seed_of_map(uint64_t seed) const {
-  return hash_combine(seed, kStream, owned_.group);
+  return hash_combine(seed, kPhotonMapStream, owned_.group);
 }
 
 void PhotonMap::render_pass(const PassKey& key, const Learned* learned, const Scene& scene,
@@ -175,8 +175,8 @@ void PhotonMap::render_pass(const PassKey& key, const Learned* learned, const Sc
     pass.point = eye_point(static_cast<uint32_t>(index));
     // Light that is on the film cannot be removed, so only the first walks may be stopped.
     if (k > 0) pass.trace.control = &unwatched;
-    read(map, set, hash_combine(seed_of_map(key.seed), kStream, set.pass, index >> 32), pass, scene,
-         film, rows);
+    read(map, set, hash_combine(seed_of_map(key.seed), kPhotonMapStream, set.pass, index >> 32),
+         pass, scene, film, rows);
   }
   film.add_estimates(group, walks_per_pass_);
   RadiusRange all;

@@ -13,7 +13,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr const EstimatorSetting* kSettings[] = {&kGuideSetting};
+constexpr const EstimatorSetting* kPhotonMappingSettings[] = {&kGuideSetting};
 constexpr uint64_t kPixelStream = 0x706978656c;  // "pixel"
 
 }  // namespace
@@ -23,7 +23,7 @@ constinit const EstimatorDescriptor PhotonMapping::kDescriptor = {
                .help = "photons merged with a radius that shrinks from pass to pass",
                .merges = true,
                .starts_at_lights = true},
-    .settings = kSettings,
+    .settings = kPhotonMappingSettings,
     .merges_with_radius = true,
     .keeps_photons = true,
     .bytes_per_pixel =

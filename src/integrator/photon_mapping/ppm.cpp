@@ -27,7 +27,7 @@ const EstimatorSetting kHitPointsSetting = {
       return std::to_string(options.own<PpmOptions>().hit_points);
     }};
 
-constexpr const EstimatorSetting* kSettings[] = {&kHitPointsSetting};
+constexpr const EstimatorSetting* kPpmSettings[] = {&kHitPointsSetting};
 
 }  // namespace
 
@@ -38,7 +38,7 @@ constinit const EstimatorDescriptor Ppm::kDescriptor = {
                .starts_at_lights = true},
     // Light outside the hit points of a pixel is never found.
     .capabilities = {.independent_passes = false, .per_pixel_state = true, .consistent = false},
-    .settings = kSettings,
+    .settings = kPpmSettings,
     .keeps_photons = true,
     .bytes_per_pixel =
         [](const PixelMemoryInput& need) {

@@ -12,8 +12,8 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kStream = 0x7370706d;  // "sppm"
-constexpr float kDefaultRadius = 2.0f;
+constexpr uint64_t kSppmStream = 0x7370706d;  // "sppm"
+constexpr float kDefaultSppmRadius = 2.0f;
 
 }  // namespace
 
@@ -37,7 +37,7 @@ Sppm::Sppm(OwnedRoutes owned, const IntegratorOptions& options)
     : owned_(std::move(owned)), options_(options) {}
 
 float Sppm::first_radius(const IntegratorOptions& options, int64_t pixels) {
-  return options.radius > 0 ? options.radius : kDefaultRadius * radius_growth(pixels);
+  return options.radius > 0 ? options.radius : kDefaultSppmRadius * radius_growth(pixels);
 }
 
 size_t Sppm::bytes_of_pass(size_t parts) {
@@ -79,7 +79,7 @@ void Sppm::render_pass(const PassKey& key, const Learned*, const Scene& scene, F
     statistics_.hold(grid.bytes(), regions_.size() * (bytes_kept(parts) + bytes_of_pass(parts)));
     gather(
         scene, b, owned_, options_.max_depth, pass,
-        {points(pass, scene), hash_combine(key.seed, kStream)}, gathered,
+        {points(pass, scene), hash_combine(key.seed, kSppmStream)}, gathered,
         [&](size_t i, const CameraPath&, const Walk& walk, const MergePoint& at, PartSums& sums) {
           const float width = pass.footprint.width(walk.length);
           SharedStatistics& region = regions_[i];

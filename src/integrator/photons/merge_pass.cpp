@@ -6,7 +6,7 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kStream = 0x6d65726765;  // "merge"
+constexpr uint64_t kMergeStream = 0x6d65726765;  // "merge"
 
 }  // namespace
 
@@ -35,7 +35,7 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
     const PhotonGrid grid(std::move(trace.photons));
     statistics.hold(grid.bytes(), pixels * MergePass::bytes_per_pixel(parts));
     gather(scene, b, owned, options.max_depth, pass,
-           {{&pass.point, 1}, hash_combine(key.seed, kStream)}, gathered,
+           {{&pass.point, 1}, hash_combine(key.seed, kMergeStream)}, gathered,
            [&](size_t, const CameraPath& path, const Walk& walk, MergePoint at,
                PartSums& sums) -> uint64_t {
              const float r = radius_pixels * pass.footprint.width(walk.length);

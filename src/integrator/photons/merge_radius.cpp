@@ -12,7 +12,7 @@ namespace nephroid {
 namespace {
 
 /// r_0 of [E5], the first radius in a picture of at most PixelSlices::kMaxFirstPixels pixels.
-constexpr float kDefaultRadius = 1.5f;
+constexpr float kDefaultMergeRadius = 1.5f;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ float radius_growth(int64_t pixels) {
 }
 
 float first_radius(const IntegratorOptions& options, int64_t pixels) {
-  return options.radius > 0 ? options.radius : kDefaultRadius * radius_growth(pixels);
+  return options.radius > 0 ? options.radius : kDefaultMergeRadius * radius_growth(pixels);
 }
 
 float pixels_of_merging(const IntegratorOptions& options, const PixelFilter&, int64_t pixels) {

@@ -9,23 +9,23 @@ namespace nephroid {
 
 namespace {
 
-struct Row {
+struct IntegratorRow {
   const char* name;
   const char* preset;  ///< name of the route preset
 };
-constexpr Row kTable[] = {{"mixed", "mixed"},
-                          {"path", "path-only"},
-                          {"sppm", "sppm"},
-                          {"photonmap", "photonmap"},
-                          {"ppm", "ppm"},
-                          {"bdpt", "bdpt"},
-                          {"vcm", "vcm"},
-                          {"bpm", "bpm"},
-                          {"pssmlt", "pssmlt"},
-                          {"mlt", "mlt"},
-                          {"pointlights", "pointlights"},
-                          {"forecast", "forecast"},
-                          {"doidge2012", "doidge2012"}};
+constexpr IntegratorRow kTable[] = {{"mixed", "mixed"},
+                                    {"path", "path-only"},
+                                    {"sppm", "sppm"},
+                                    {"photonmap", "photonmap"},
+                                    {"ppm", "ppm"},
+                                    {"bdpt", "bdpt"},
+                                    {"vcm", "vcm"},
+                                    {"bpm", "bpm"},
+                                    {"pssmlt", "pssmlt"},
+                                    {"mlt", "mlt"},
+                                    {"pointlights", "pointlights"},
+                                    {"forecast", "forecast"},
+                                    {"doidge2012", "doidge2012"}};
 
 constexpr const char* kOwnChoice = "the program's own choice, with the same picture";
 
@@ -100,7 +100,7 @@ constexpr SceneRow kSceneTable[] = {
 
 std::vector<std::string> integrator_names() {
   std::vector<std::string> names;
-  for (const Row& row : kTable) names.emplace_back(row.name);
+  for (const IntegratorRow& row : kTable) names.emplace_back(row.name);
   return names;
 }
 
@@ -114,10 +114,11 @@ std::vector<FormatType> scene_integrator_types() {
 }
 
 RoutePlan plan_of_integrator(const std::string& name) {
-  for (const Row& row : kTable)
+  for (const IntegratorRow& row : kTable)
     if (name == row.name) return {*route_preset(row.preset), {}, false};
   std::string expected;
-  for (const Row& row : kTable) expected += std::string(expected.empty() ? "" : ", ") + row.name;
+  for (const IntegratorRow& row : kTable)
+    expected += std::string(expected.empty() ? "" : ", ") + row.name;
   throw UsageError("integrator \"" + name + "\" is unknown, expected one of " + expected);
 }
 

@@ -10,9 +10,9 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kStream = 0x76706c;      // "vpl"
-constexpr uint64_t kThinning = 0x7468696e;  // "thin"
-constexpr int64_t kChunk = 4;               // groups are small
+constexpr uint64_t kPointLightPoolStream = 0x76706c;  // "vpl"
+constexpr uint64_t kThinning = 0x7468696e;            // "thin"
+constexpr int64_t kPoolChunk = 4;                     // groups are small
 
 using Lights = std::vector<std::unique_ptr<PointLight>>;
 
@@ -100,7 +100,7 @@ class PointLightVisitor : public LightWalkVisitor {
 /// Traces light path `number`, leaves at most `most` lights in `out` and returns the rays.
 uint64_t trace(const Scene& scene, const OwnedRoutes& owned, const PhotonTraceSettings& settings,
                uint64_t number, int64_t most, Lights& out) {
-  const LightPathSequence sequence{hash_combine(settings.key.seed, kStream)};
+  const LightPathSequence sequence{hash_combine(settings.key.seed, kPointLightPoolStream)};
   const LightPathLaunch launch{
       .scene = scene, .specular_alpha = settings.specular_alpha, .max_events = settings.max_events};
   uint64_t rays = 0;
@@ -148,7 +148,7 @@ PointLightPool::PointLightPool(const Scene& scene, const OwnedRoutes& owned,
         std::move(of_path.begin(), of_path.end(), std::back_inserter(chunk.lights));
       }
     };
-    ordered_reduce<Chunk>(*settings.control, count, kChunk, trace_chunk, [&](Chunk&& chunk) {
+    ordered_reduce<Chunk>(*settings.control, count, kPoolChunk, trace_chunk, [&](Chunk&& chunk) {
       rays_ += chunk.rays;
       useful_paths_ += chunk.useful;
       std::move(chunk.lights.begin(), chunk.lights.end(), std::back_inserter(lights_));

@@ -14,9 +14,9 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kStream = 0x706f696e74;   // "point"
-constexpr uint64_t kLearning = 0x70ea2;      // stream of the learning set
-constexpr int kDefaultConnections = 32;      // connections per pixel and pass
+constexpr uint64_t kPointLightStream = 0x706f696e74;  // "point"
+constexpr uint64_t kPointLightLearning = 0x70ea2;     // stream of the learning set
+constexpr int kDefaultConnections = 32;               // connections per pixel and pass
 constexpr int64_t kPathsPerConnection = 64;  // light paths per connection, over a pass's samples
 constexpr int64_t kLearningPaths = 1024;
 constexpr int kConnectionDimensions = 1 << 20;  // beyond the walks' dimensions; numbers are random
@@ -176,7 +176,7 @@ const EstimatorSetting kPointLightsSetting = {
       return std::to_string(options.own<PointLightsOptions>().connections);
     }};
 
-constexpr const EstimatorSetting* kSettings[] = {&kPointLightsSetting};
+constexpr const EstimatorSetting* kPointLightSettings[] = {&kPointLightsSetting};
 
 }  // namespace
 
@@ -196,7 +196,7 @@ constinit const EstimatorDescriptor PointLights::kDescriptor = {
                                 ? nullptr
                                 : out_of_reach_of_eye_walks(path);
                    }},
-    .settings = kSettings,
+    .settings = kPointLightSettings,
     .keeps_photons = true,
     .make = make_estimator<PointLights>,
 };
@@ -206,8 +206,8 @@ PointLights::PointLights(OwnedRoutes owned, const IntegratorOptions& options)
 
 std::shared_ptr<const Learned> PointLights::learn(const Scene& scene, const FilmFormat& film,
                                                   uint64_t seed, PassControl& control) const {
-  PhotonPass pass =
-      start_photon_pass({hash_combine(seed, kLearning), 0}, scene, film, options_, control);
+  PhotonPass pass = start_photon_pass({hash_combine(seed, kPointLightLearning), 0}, scene, film,
+                                      options_, control);
   pass.trace.photons_per_pass = kLearningPaths;
   const PointLightPool pool(scene, owned_, pass.trace,
                             point_lights_in_memory_of(options_.memory_photons));
@@ -271,7 +271,7 @@ void PointLights::render_sample(const PhotonPass& pass, float density, const Sce
     PartSums light(*owned_.routes, owned_.group);
     for (int i = 0; i < run.count; ++i) {
       const int x = run.x + i * run.step, y = run.y;
-      PathSampler sampler(pass.point, hash_combine(key.seed, kStream, x, y));
+      PathSampler sampler(pass.point, hash_combine(key.seed, kPointLightStream, x, y));
       CameraPath path = start_merging_path(scene, x, y, sampler, pass);
       light.clear();
       PointLightsVisitor visitor(scene, owned_, shared, light);

@@ -34,6 +34,11 @@ inline constexpr size_t kEventClasses = 5;
 inline constexpr EventClass kSurfaceClasses[] = {EventClass::kDiffuse, EventClass::kGlossy,
                                                  EventClass::kSpecular};
 
+/// Whether two local directions are on one side of the surface.
+inline bool same_side(const Vec3f& a, const Vec3f& b) {
+  return (a.z > 0.0f) == (b.z > 0.0f);
+}
+
 /// A set of event classes. Photons merge at kRough. kAll holds all classes of surfaces.
 enum class ClassMask : uint8_t {
   kNone = 0,

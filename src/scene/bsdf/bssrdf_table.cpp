@@ -7,7 +7,6 @@
 namespace nephroid {
 namespace {
 
-constexpr double kPiD = 3.14159265358979323846;
 constexpr int kDepths = 100;
 
 /// Depth of the i-th of kDepths samples of exponential transmittance with extinction 1.
@@ -19,7 +18,7 @@ double sampled_depth(int i) {
 /// where it goes.
 double phase(double cosine, double g) {
   const double d = 1.0 + g * g + 2.0 * g * cosine;
-  return (1.0 - g * g) / (4.0 * kPiD * d * std::sqrt(d));
+  return (1.0 - g * g) / (4.0 * kPiDouble * d * std::sqrt(d));
 }
 
 }  // namespace
@@ -62,12 +61,13 @@ double beam_diffusion_multiple(double albedo, double g, double eta, double r) {
     const double d_virtual = std::sqrt(r * r + z_virtual * z_virtual);
     const double e_real = std::exp(-transport * d_real);
     const double e_virtual = std::exp(-transport * d_virtual);
-    const double fluence = (e_real / d_real - e_virtual / d_virtual) / (4.0 * kPiD * diffusion);
+    const double fluence =
+        (e_real / d_real - e_virtual / d_virtual) / (4.0 * kPiDouble * diffusion);
     const double gradient =
         (z_real * (1.0 + transport * d_real) * e_real / (d_real * d_real * d_real) -
          z_virtual * (1.0 + transport * d_virtual) * e_virtual /
              (d_virtual * d_virtual * d_virtual)) /
-        (4.0 * kPiD);
+        (4.0 * kPiDouble);
     // Beam diffusion is too bright near the beam; this empirical factor corrects it.
     const double near = 1.0 - std::exp(-2.0 * extinction * (d_real + z_real));
     sum += near * (fluence * of_fluence + gradient * of_gradient);
@@ -97,7 +97,7 @@ void BssrdfTable::fill_row(int albedo) {
   for (int j = 0; j < kRadii; ++j) {
     const double r = radii_[j];
     profile_[index(albedo, j)] = static_cast<float>(
-        2.0 * kPiD * r *
+        2.0 * kPiDouble * r *
         (beam_diffusion_single(a, g_, eta_, r) + beam_diffusion_multiple(a, g_, eta_, r)));
   }
   effective_[albedo] =

@@ -10,10 +10,6 @@ float reflection_share(float r, BoundaryPart part) {
   return part == BoundaryPart::kTransmission ? 0.0f : r;
 }
 
-bool same_side(const Vec3f& a, const Vec3f& b) {
-  return (a.z > 0.0f) == (b.z > 0.0f);
-}
-
 std::optional<DielectricInterface::Sample> sample_smooth(const DielectricInterface& boundary,
                                                          const Vec3f& wo, float uc,
                                                          TransportMode mode, BoundaryPart part) {

@@ -9,14 +9,14 @@
 namespace nephroid {
 namespace {
 
-constexpr float kTwoPi = 2.0f * kPi;
+constexpr float kTurn = 2.0f * kPi;
 
 /// log(I0(x)) - x, I0 the modified Bessel function, x >= 0: its series, or for large x its
 /// asymptotic expansion (Abramowitz & Stegun 9.6.12, 9.7.1).
 float log_i0_scaled(float x) {
   if (x > 12.0f) {
     const float r = 1.0f / (8.0f * x);
-    return std::log((1.0f + r * (1.0f + r * (4.5f + r * 37.5f))) / std::sqrt(kTwoPi * x));
+    return std::log((1.0f + r * (1.0f + r * (4.5f + r * 37.5f))) / std::sqrt(kTurn * x));
   }
   const float q = 0.25f * x * x;
   float term = 1.0f, sum = 1.0f;
@@ -48,7 +48,7 @@ float sample_trimmed_logistic(float u, float s) {
 
 /// The angle wrapped into [-pi, pi].
 float wrapped(float angle) {
-  return std::clamp(angle - kTwoPi * std::round(angle / kTwoPi), -kPi, kPi);
+  return std::clamp(angle - kTurn * std::round(angle / kTurn), -kPi, kPi);
 }
 
 }  // namespace
@@ -154,12 +154,12 @@ std::optional<BsdfSample> HairBsdf::sample(const Vec3f& wo, float uc, const Vec2
       1.0f + v * std::log(std::max(1e-37f, u.x + (1.0f - u.x) * std::exp(-2.0f / v))), -1.0f, 1.0f);
   const float sin_i =
       std::clamp(-cos_cone * o.sin_tilted[p] +
-                     safe_sqrt(1.0f - sqr(cos_cone)) * std::cos(kTwoPi * u.y) * o.cos_tilted[p],
+                     safe_sqrt(1.0f - sqr(cos_cone)) * std::cos(kTurn * u.y) * o.cos_tilted[p],
                  -1.0f, 1.0f);
   const float cos_i = safe_sqrt(1.0f - sqr(sin_i));
   const float turn = p + 1 < kLobes ? azimuth(static_cast<int>(p), o.gamma_t) +
                                           sample_trimmed_logistic(uc, shape_.s)
-                                    : kTwoPi * uc;
+                                    : kTurn * uc;
   const float phi = o.phi + turn;
 
   BsdfSample s;

@@ -10,10 +10,6 @@ namespace {
 /// Minimum energy of a lobe that exists: the estimate for one facet can be 0 where the lobe is not.
 constexpr float kMinEnergy = 0.02f;
 
-bool same_side(const Vec3f& a, const Vec3f& b) {
-  return (a.z > 0.0f) == (b.z > 0.0f);
-}
-
 }  // namespace
 
 PrincipledBsdf::PrincipledBsdf(const PrincipledLayers* layers, float specular_alpha)

@@ -31,11 +31,10 @@ double safe_acos(double c) {
 /// The measure of directions into which a cone of normals emits, cosine-weighted outside of the
 /// cone (Conty Estevez & Kulla 2018, equation 1).
 double orientation_measure(double cos_o, double cos_e) {
-  const double pi = 3.14159265358979323846;
-  const double o = safe_acos(cos_o), w = std::min(o + safe_acos(cos_e), pi);
+  const double o = safe_acos(cos_o), w = std::min(o + safe_acos(cos_e), kPiDouble);
   const double sin_o = std::sin(o);
-  return 2.0 * pi * (1.0 - cos_o) +
-         pi / 2.0 * (2.0 * w * sin_o - std::cos(o - 2.0 * w) - 2.0 * o * sin_o + cos_o);
+  return 2.0 * kPiDouble * (1.0 - cos_o) +
+         kPiDouble / 2.0 * (2.0 * w * sin_o - std::cos(o - 2.0 * w) - 2.0 * o * sin_o + cos_o);
 }
 
 /// Cost of a group of lights that becomes a child (equation 2); `stretch` penalises thin boxes.
@@ -107,15 +106,14 @@ struct Cone {
 
 /// The smallest cone around two cones, or all directions.
 Cone union_of_cones(const Vec3f& axis_a, float cos_a, const Vec3f& axis_b, float cos_b) {
-  const double pi = 3.14159265358979323846;
   const Vec3d a(axis_a.x, axis_a.y, axis_a.z), b(axis_b.x, axis_b.y, axis_b.z);
   const double half_a = safe_acos(cos_a), half_b = safe_acos(cos_b);
   const Vec3d normal = a.cross(b);
   const double between = std::atan2(normal.length(), a.dot(b));
-  if (std::min(between + half_b, pi) <= half_a) return {a, cos_a};
-  if (std::min(between + half_a, pi) <= half_b) return {b, cos_b};
+  if (std::min(between + half_b, kPiDouble) <= half_a) return {a, cos_a};
+  if (std::min(between + half_a, kPiDouble) <= half_b) return {b, cos_b};
   const double half = 0.5 * (half_a + between + half_b);
-  if (half >= pi || normal.length() < 1e-12) return {a, -1.0};
+  if (half >= kPiDouble || normal.length() < 1e-12) return {a, -1.0};
   // Axis a rotated towards b in their plane.
   const double turn = half - half_a;
   const Vec3d side = normal.normalized().cross(a);

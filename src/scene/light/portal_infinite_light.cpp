@@ -16,8 +16,6 @@ namespace nephroid {
 
 namespace {
 
-constexpr double kPiDouble = 3.14159265358979323846;
-
 /// The rectangle, and the rectified coordinates (u, v) of outward directions through it. They are
 /// the direction's angles with the portal's normal z, projected to the xz and yz planes, from 0 at
 /// -90 degrees to 1 at 90 degrees.

@@ -15,7 +15,7 @@ struct Slide {
 
   /// `fov` in degrees spans the shorter side.
   Slide(int image_width, int image_height, float fov) : width(image_width), height(image_height) {
-    const double half = std::tan(fov * (3.14159265358979323846 / 360.0));
+    const double half = std::tan(fov * (kPiDouble / 360.0));
     const double aspect = static_cast<double>(width) / height;
     half_x = static_cast<float>(aspect > 1.0 ? half * aspect : half);
     half_y = static_cast<float>(aspect > 1.0 ? half : half / aspect);

@@ -6,8 +6,6 @@
 namespace nephroid {
 namespace {
 
-constexpr double kPiDouble = 3.14159265358979323846;
-
 /// (u, v) of a unit direction in a latitude-longitude map, both in [0,1].
 Vec2f latitude_longitude(const Vec3f& w) {
   const double phi = std::atan2(double{w.y}, double{w.x});

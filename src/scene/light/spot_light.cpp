@@ -8,7 +8,7 @@ namespace nephroid {
 namespace {
 
 double radians(float degrees) {
-  return degrees * (3.14159265358979323846 / 180.0);
+  return degrees * kDegree;
 }
 
 /// Solves 2 x^3 - x^4 = u for x in [0,1]: the inverse cumulative distribution of smoothstep.

@@ -60,10 +60,10 @@ constexpr FormatParameter kNanoVdb[] = {
     {"string", "temperaturename", "temperature", "", "of temperatures, need not be there"},
 };
 
-struct Row : FormatType {
+struct MediumRow : FormatType {
   MediumMaker make;
 };
-constexpr Row kMedia[] = {
+constexpr MediumRow kMedia[] = {
     {{"homogeneous", {kHomogeneous, kCoefficients, kScale, kLescale}}, make_homogeneous_medium},
     {{"uniformgrid", {kUniformGrid, kCoefficients, kScale, kTemperature, kBox}},
      make_uniform_grid_medium},
@@ -82,7 +82,7 @@ std::vector<MediumPtr> make_media(const SceneDescription& description, Diagnosti
   const MediumScope scope{*description.files};
   std::vector<MediumPtr> media;
   for (const MediumDescription& d : description.media) {
-    const Row& row = row_of(kMedia, "medium type", d.type, d.where);
+    const MediumRow& row = row_of(kMedia, "medium type", d.type, d.where);
     if (!is_invertible(d.transform.start))
       throw SceneError(d.where, "the transform of medium \"" + d.name + "\" has no inverse");
     if (d.transform.is_animated())

@@ -5,11 +5,11 @@ namespace nephroid {
 
 namespace {
 
-struct Row {
+struct PresetRow {
   const char* name;
   ScatteringPreset preset;
 };
-constexpr Row kRows[] = {
+constexpr PresetRow kRows[] = {
     // Jensen et al. 2001.
     {"Apple", {{2.29f, 2.39f, 1.97f}, {0.0030f, 0.0034f, 0.046f}}},
     {"Chicken1", {{0.15f, 0.21f, 0.38f}, {0.015f, 0.077f, 0.19f}}},
@@ -71,14 +71,14 @@ constexpr Row kRows[] = {
 }  // namespace
 
 std::optional<ScatteringPreset> scattering_preset(std::string_view name) {
-  for (const Row& row : kRows)
+  for (const PresetRow& row : kRows)
     if (name == row.name) return row.preset;
   return std::nullopt;
 }
 
 std::vector<std::string> scattering_preset_names() {
   std::vector<std::string> names;
-  for (const Row& row : kRows) names.emplace_back(row.name);
+  for (const PresetRow& row : kRows) names.emplace_back(row.name);
   return names;
 }
 

@@ -5,8 +5,6 @@
 namespace nephroid {
 namespace {
 
-constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
-
 class Cylinder final : public Quadric {
  public:
   Cylinder(const Transform& transform, bool reverse, double radius, double z_min, double z_max,

@@ -6,8 +6,6 @@
 namespace nephroid {
 namespace {
 
-constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
-
 class Disk final : public Quadric {
  public:
   Disk(const Transform& transform, bool reverse, double height, double radius, double inner,

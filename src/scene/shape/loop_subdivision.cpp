@@ -10,8 +10,6 @@
 namespace nephroid {
 namespace {
 
-constexpr double kPiDouble = 3.14159265358979323846;
-
 /// Half-edge h = 3 * face + k runs from corner k to corner k + 1 of its face.
 constexpr uint32_t kNone = 0xffffffffu;
 uint32_t next_in_face(uint32_t h) {

@@ -7,7 +7,7 @@ namespace nephroid {
 namespace {
 
 /// Rectangles with a smaller solid angle are sampled by area (pbrt-v4).
-constexpr double kMinSphericalArea = 1e-4;
+constexpr double kMinRectangleArea = 1e-4;
 
 }  // namespace
 
@@ -59,14 +59,14 @@ ShapeSample PlaneRectangle::sample_area(const Vec2f& u) const {
 
 std::optional<ShapeSample> PlaneRectangle::sample_towards(const Vec3f& from, const Vec2f& u) const {
   const SphericalRectangle seen(to_double(from), frame_);
-  if (seen.solid_angle() > kMinSphericalArea)
+  if (seen.solid_angle() > kMinRectangleArea)
     return sample_at(seen.sample(u), 1.0 / seen.solid_angle());
   return seen_from(sample_area(u), from);
 }
 
 float PlaneRectangle::pdf_towards(const Vec3f& from, const Vec3f& p, const Vec3f& ng) const {
   const SphericalRectangle seen(to_double(from), frame_);
-  if (seen.solid_angle() > kMinSphericalArea) return static_cast<float>(1.0 / seen.solid_angle());
+  if (seen.solid_angle() > kMinRectangleArea) return static_cast<float>(1.0 / seen.solid_angle());
   return area_to_solid_angle(static_cast<float>(1.0 / area_), from, p, ng);
 }
 

@@ -8,8 +8,6 @@
 namespace nephroid {
 namespace {
 
-constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
-
 // Row vectors: p' = p * M, so M's rows are the images of the axes.
 Vec3d transform_vector(const Mat44d& m, const Vec3d& v) {
   return {v.x * m[0][0] + v.y * m[1][0] + v.z * m[2][0],
@@ -25,7 +23,7 @@ Vec3d transform_transposed(const Mat44d& m, const Vec3d& v) {
           v.x * m[1][0] + v.y * m[1][1] + v.z * m[1][2],
           v.x * m[2][0] + v.y * m[2][1] + v.z * m[2][2]};
 }
-Vec3d unit(const Vec3d& v) {
+Vec3d normalized_d(const Vec3d& v) {
   return v / std::sqrt(v.dot(v));
 }
 
@@ -97,12 +95,12 @@ Vec3d Quadric::vector_to_object(const Vec3d& v) const {
 }
 
 Vec3f Quadric::world_normal(const Vec3d& n) const {
-  const Vec3d world = unit(transform_transposed(to_object_, n));
+  const Vec3d world = normalized_d(transform_transposed(to_object_, n));
   return to_float(flip_ ? -world : world);
 }
 
 Vec3d Quadric::normal_to_object(const Vec3f& n) const {
-  return unit(transform_transposed(to_world_, to_double(n)));
+  return normalized_d(transform_transposed(to_world_, to_double(n)));
 }
 
 Vec3f Quadric::world_point(const Vec3d& p, Vec3f* error) const {

@@ -7,8 +7,6 @@
 namespace nephroid {
 namespace {
 
-constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
-
 /// The tangent cone of a sphere of radius r from a point at distance D from its centre.
 struct TangentCone {
   double distance, one_minus_cos_max;

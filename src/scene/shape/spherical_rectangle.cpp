@@ -6,8 +6,6 @@ namespace nephroid {
 
 namespace {
 
-constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
-
 // Argument of a complex number in [0, 2 pi).
 double argument(double re, double im) {
   const double a = std::atan2(im, re);

@@ -15,7 +15,7 @@ namespace nephroid {
 namespace {
 
 /// Outside of these solid angles sampling by area is as good and more precise (pbrt-v4).
-constexpr double kMinSphericalArea = 3e-4, kMaxSphericalArea = 6.22;
+constexpr double kMinTriangleArea = 3e-4, kMaxTriangleArea = 6.22;
 
 struct Corners {
   Vec3f p0, p1, p2;
@@ -254,7 +254,7 @@ SphericalTriangle seen_triangle(const Corners& c, const Vec3f& from) {
 }
 
 bool sampled_by_direction(const SphericalTriangle& triangle) {
-  return triangle.solid_angle() >= kMinSphericalArea && triangle.solid_angle() <= kMaxSphericalArea;
+  return triangle.solid_angle() >= kMinTriangleArea && triangle.solid_angle() <= kMaxTriangleArea;
 }
 
 /// Intersection of the direction w from `from`, which points into the triangle.

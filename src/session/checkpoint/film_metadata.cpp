@@ -9,13 +9,13 @@
 namespace nephroid {
 namespace {
 
-using Json = nlohmann::json;
+using LayoutJson = nlohmann::json;
 
 /// Upper bound of the compression ratio, that of a block of zeros.
 constexpr double kMaxBytesPerByte = 20000;
 
-Json layout_of(const StateFile& file) {
-  return Json::parse(value_of(file.metadata(), kLayoutKey));
+LayoutJson layout_of(const StateFile& file) {
+  return LayoutJson::parse(value_of(file.metadata(), kLayoutKey));
 }
 
 [[noreturn]] void senseless(const StateFile& file) {
@@ -27,17 +27,17 @@ Json layout_of(const StateFile& file) {
 void add_film_metadata(const Film& film, bool passes_add_up, Metadata* metadata) {
   const FilmSettings& settings = film.settings();
   const FilmLayout& layout = film.layout();
-  Json parts = Json::array();
+  LayoutJson parts = LayoutJson::array();
   for (const FilmLayout::Part& part : layout.parts)
-    parts.push_back(Json::array({part.route, part.aovs}));
-  const Json json = {{"gbuffer", settings.gbuffer},
-                     {"space", settings.color_space ? settings.color_space->name() : "srgb"},
-                     {"routes", layout.routes},
-                     {"aovs", layout.aovs},
-                     {"groups", layout.groups},
-                     {"merges", layout.merges},
-                     {"parts", parts},
-                     {"passes_add_up", passes_add_up && film.rejection() == nullptr}};
+    parts.push_back(LayoutJson::array({part.route, part.aovs}));
+  const LayoutJson json = {{"gbuffer", settings.gbuffer},
+                           {"space", settings.color_space ? settings.color_space->name() : "srgb"},
+                           {"routes", layout.routes},
+                           {"aovs", layout.aovs},
+                           {"groups", layout.groups},
+                           {"merges", layout.merges},
+                           {"parts", parts},
+                           {"passes_add_up", passes_add_up && film.rejection() == nullptr}};
   metadata->emplace_back(kLayoutKey, json.dump());
 }
 
@@ -48,7 +48,7 @@ Metadata picture_metadata_of(Metadata metadata) {
 
 Film film_of(const StateFile& file) {
   try {
-    const Json json = layout_of(file);
+    const LayoutJson json = layout_of(file);
     FilmSettings settings;
     settings.width = file.resolution().x;
     settings.height = file.resolution().y;
@@ -60,7 +60,7 @@ Film film_of(const StateFile& file) {
     layout.aovs = json.at("aovs").get<std::vector<std::string>>();
     layout.groups = json.at("groups").get<std::vector<int>>();
     layout.merges = json.at("merges").get<std::vector<bool>>();
-    for (const Json& part : json.at("parts"))
+    for (const LayoutJson& part : json.at("parts"))
       layout.parts.push_back({part.at(0).get<int>(), part.at(1).get<std::vector<int>>()});
     const auto in = [](int i, size_t count) { return i >= 0 && static_cast<size_t>(i) < count; };
     bool fits = layout.groups.size() == layout.routes.size() && settings.color_space != nullptr &&

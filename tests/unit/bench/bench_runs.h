@@ -31,7 +31,7 @@ inline std::string small_suite(const std::string& more = "") {
                 "between": [1, 1e9]}]})";
 }
 
-class BenchRuns : public testing::Test {
+class BenchRuns : public ::testing::Test {
  protected:
   BenchResults run(const std::string& suite, const std::vector<std::string>& only = {}) {
     BenchOptions options = options_;

@@ -8,7 +8,7 @@
 namespace nephroid::testing_bsdf {
 namespace {
 
-constexpr int kBins = 6;  // uniform steps in the cosine of wi
+constexpr int kCosineBins = 6;  // uniform steps in the cosine of wi
 
 struct Left {
   Vec3f wi;
@@ -58,10 +58,10 @@ std::optional<Left> brute_force(const Coat& coat, const Base& base, const Vec3f&
 }
 
 struct Energies {
-  Mean bins[kBins];
+  Mean bins[kCosineBins];
   void add(float cosine, float weight) {
-    const int b = std::min(kBins - 1, static_cast<int>(cosine * kBins));
-    for (int i = 0; i < kBins; ++i) bins[i].add(i == b ? weight : 0.0);
+    const int b = std::min(kCosineBins - 1, static_cast<int>(cosine * kCosineBins));
+    for (int i = 0; i < kCosineBins; ++i) bins[i].add(i == b ? weight : 0.0);
   }
   void add_nothing() {
     for (Mean& m : bins) m.add(0.0);
@@ -107,7 +107,7 @@ Energies sampled_energies(const Bsdf& bsdf, const Coat& coat, const Vec3f& wo, i
 }
 
 void expect_same(const Energies& a, const Energies& b, const std::string& what) {
-  for (int i = 0; i < kBins; ++i)
+  for (int i = 0; i < kCosineBins; ++i)
     EXPECT_NEAR(a.bins[i].mean(), b.bins[i].mean(),
                 5.0 * std::hypot(a.bins[i].error(), b.bins[i].error()) + 1e-4)
         << what << ", bin " << i;
@@ -152,7 +152,7 @@ TEST(Layered, ClosedFormAgreesWithBruteForce) {
       for (const float angle : {20.0f, 75.0f}) {
         const Vec3f wo = direction_at(angle);
         const Energies brute = brute_force_energies(coat, grey, wo, 100000);
-        for (int b = 0; b < kBins; ++b) {
+        for (int b = 0; b < kCosineBins; ++b) {
           const double exact = integrate_range(
               [&](const Vec3f& wi) {
                 const double f = bsdf.eval(wo, wi, TransportMode::kRadiance, EventClass::kDiffuse,
@@ -160,7 +160,7 @@ TEST(Layered, ClosedFormAgreesWithBruteForce) {
                                      .f[kLane];
                 return f * wi.z;
               },
-              static_cast<double>(b) / kBins, (b + 1.0) / kBins, 1e-4);
+              static_cast<double>(b) / kCosineBins, (b + 1.0) / kCosineBins, 1e-4);
           EXPECT_NEAR(exact, brute.bins[b].mean(), 4.5 * brute.bins[b].error() + 2e-4)
               << "alpha " << alpha << ", depth " << max_depth << ", angle " << angle;
         }

@@ -13,7 +13,7 @@ namespace {
 
 using S = PrincipledSurface;
 
-constexpr TransportMode kModes[] = {TransportMode::kRadiance, TransportMode::kImportance};
+constexpr TransportMode kPrincipledModes[] = {TransportMode::kRadiance, TransportMode::kImportance};
 
 void expect_same(const SampledSpectrum& a, const SampledSpectrum& b, const std::string& what) {
   for (int i = 0; i < kSpectrumSamples; ++i)
@@ -28,7 +28,7 @@ void expect_same_bsdf(const Bsdf& a, const Bsdf& b, const std::string& what) {
   for (int i = 0; i < 2000; ++i) {
     const Vec3f wo = spherical(2.0 * random.next() - 1.0, 6.28 * random.next());
     if (std::abs(wo.z) < 0.02f) continue;
-    const TransportMode mode = kModes[i % 2];
+    const TransportMode mode = kPrincipledModes[i % 2];
     const float uc = random.next();
     const Vec2f u = random.next2();
     const auto s = a.sample(wo, uc, u, mode, ClassMask::kAll);
@@ -67,8 +67,8 @@ TEST(PrincipledBsdf, OfTransmissionOnlyIsADielectric) {
       TestRandom random(43);
       for (int i = 0; i < 500; ++i) {
         const Vec3f wo = spherical(2.0 * random.next() - 1.0, 6.28 * random.next());
-        const auto a = glass.delta_pair(wo, kModes[i % 2]);
-        const auto b = expected.delta_pair(wo, kModes[i % 2]);
+        const auto a = glass.delta_pair(wo, kPrincipledModes[i % 2]);
+        const auto b = expected.delta_pair(wo, kPrincipledModes[i % 2]);
         ASSERT_EQ(a.has_value(), b.has_value()) << what;
         for (int k = 0; a && k < 2; ++k) {
           EXPECT_LT(length((*a)[k].wi - (*b)[k].wi), 1e-6f) << what;

@@ -11,7 +11,7 @@
 namespace nephroid {
 namespace {
 
-std::shared_ptr<const ApertureShape> stop(const std::string& shape) {
+std::shared_ptr<const ApertureShape> lens_stop(const std::string& shape) {
   SceneFiles files;
   return make_aperture_shape(shape, files, {});
 }
@@ -73,11 +73,11 @@ TEST(LensSystem, RaysGoBackTheWayTheyCame) {
   EXPECT_GT(passed, 20);
 }
 
-// Every point of the rear plane that passes light is within the pupil's bounds, also if the stop's
-// shape is rotated against them. The bounds are not much larger.
+// Every point of the rear plane that passes light is within the pupil's bounds, also if the
+// stop's shape is rotated against them. The bounds are not much larger.
 TEST(LensSystem, PupilBoundsHoldAllThatPasses) {
   for (const char* shape_name : {"", "star", "square"}) {
-    const LensSystem lens(symmetric_surfaces(0.004), stop(shape_name));
+    const LensSystem lens(symmetric_surfaces(0.004), lens_stop(shape_name));
     int passed = 0;
     for (int zone = 0; zone < 8; ++zone) {
       const PupilBounds b = lens.bound_exit_pupil(0.002 * zone, 0.002 * (zone + 1));
@@ -166,7 +166,7 @@ Light light_of(const std::vector<double>& values) {
 class BruteForce {
  public:
   explicit BruteForce(double stop_radius, const char* shape = "")
-      : lens_(symmetric_surfaces(stop_radius), stop(shape)) {
+      : lens_(symmetric_surfaces(stop_radius), lens_stop(shape)) {
     EXPECT_TRUE(lens_.focus(2, 35e-6));
   }
   /// The camera's film point; empty if blocked.

@@ -9,14 +9,14 @@
 namespace nephroid {
 namespace {
 
-constexpr const char* kSpaces[] = {"srgb", "dci-p3", "rec2020", "aces2065-1"};
+constexpr const char* kRgbSpaces[] = {"srgb", "dci-p3", "rec2020", "aces2065-1"};
 
 Rgb emitted_colour(const RgbColorSpace& space, const Spectrum& s) {
   return space.from_xyz(spectrum_to_xyz(s));
 }
 
 TEST(RgbSpectra, WhiteAlbedoIsOneEverywhere) {
-  for (const char* name : kSpaces) {
+  for (const char* name : kRgbSpaces) {
     const SpectrumPtr s = rgb_albedo_spectrum(*RgbColorSpace::find(name), {1, 1, 1});
     EXPECT_TRUE(s->is_constant());
     for (const float lambda : {360.0f, 500.0f, 830.0f}) EXPECT_NEAR((*s)(lambda), 1.0f, 1e-3f);
@@ -47,7 +47,7 @@ TEST(RgbSpectra, UnboundedIsAScaledReflectanceOfHalfTheRange) {
 }
 
 TEST(RgbSpectra, EmissionHasItsColourInEverySpace) {
-  for (const char* name : kSpaces) {
+  for (const char* name : kRgbSpaces) {
     const RgbColorSpace& space = *RgbColorSpace::find(name);
     for (const Rgb rgb : {Rgb{1, 1, 1}, Rgb{17, 12, 6}, Rgb{0.02f, 0.03f, 0.025f}}) {
       const Rgb seen = emitted_colour(space, *rgb_illuminant_spectrum(space, rgb));

@@ -16,7 +16,7 @@ namespace {
 using testing_support::add_one;
 using testing_support::replace_one;
 
-FilmSettings small_film() {
+FilmSettings small_settings() {
   FilmSettings settings;
   settings.width = 8;
   settings.height = 6;
@@ -43,7 +43,7 @@ Plain plain_statistics(const std::vector<float>& values) {
 }
 
 TEST(Film, MeanAndErrorOfOneRoute) {
-  Film film(small_film(), FilmLayout::of_routes({"all"}));
+  Film film(small_settings(), FilmLayout::of_routes({"all"}));
   std::vector<float> values;
   for (uint64_t i = 0; i < 40; ++i) {
     const float v = random_value(i);
@@ -64,7 +64,7 @@ TEST(Film, MeanAndErrorOfOneRoute) {
 }
 
 TEST(Film, RoutesAddUpEachWithItsOwnCount) {
-  Film film(small_film(), FilmLayout::of_routes({"diffuse", "caustic"}));
+  Film film(small_settings(), FilmLayout::of_routes({"diffuse", "caustic"}));
   std::vector<float> diffuse, caustic;
   for (uint64_t i = 0; i < 10; ++i) {
     diffuse.push_back(random_value(i));
@@ -85,7 +85,7 @@ TEST(Film, RoutesAddUpEachWithItsOwnCount) {
 
 TEST(Film, BeautyIsRoundedOnce) {
   // Each route alone rounds to 1: only the exact sum shows the rest.
-  Film film(small_film(), FilmLayout::of_routes({"a", "b"}));
+  Film film(small_settings(), FilmLayout::of_routes({"a", "b"}));
   add_one(film, 0, 2, 1, {1, 0, 0});
   add_one(film, 1, 2, 1, {0x1p-23f, 0, 0});
   add_one(film, 1, 2, 1, {-0x1p-25f, 0, 0});
@@ -95,7 +95,7 @@ TEST(Film, BeautyIsRoundedOnce) {
 }
 
 TEST(Film, NoEstimateIsBlackAndOneHasNoError) {
-  Film film(small_film(), FilmLayout::of_routes({"all"}));
+  Film film(small_settings(), FilmLayout::of_routes({"all"}));
   EXPECT_EQ(film.value(2, 1).g, 0.0f);
   add_one(film, 0, 2, 1, {1, 2, 3});
   film.add_estimates(0, 1);
@@ -104,7 +104,7 @@ TEST(Film, NoEstimateIsBlackAndOneHasNoError) {
 }
 
 TEST(Film, EqualEstimatesHaveNoErrorToSpeakOf) {
-  Film film(small_film(), FilmLayout::of_routes({"all"}));
+  Film film(small_settings(), FilmLayout::of_routes({"all"}));
   for (int i = 0; i < 100; ++i) add_one(film, 0, 2, 1, {0.1f, 1e6f, 3});
   film.add_estimates(0, 100);
   // The remainder is rounding of the mean square in double: sqrt(2^-52 / 99) of the value.
@@ -113,7 +113,7 @@ TEST(Film, EqualEstimatesHaveNoErrorToSpeakOf) {
 }
 
 TEST(Film, NotFiniteIsCountedAndLeftOut) {
-  Film film(small_film(), FilmLayout::of_routes({"all"}));
+  Film film(small_settings(), FilmLayout::of_routes({"all"}));
   add_one(film, 0, 2, 1, {1, 1, 1});
   add_one(film, 0, 2, 1, {1, std::numeric_limits<float>::quiet_NaN(), 1});
   add_one(film, 0, 3, 1, {kInfinity, 0, 0});
@@ -124,7 +124,7 @@ TEST(Film, NotFiniteIsCountedAndLeftOut) {
 }
 
 TEST(Film, SaturationIsCounted) {
-  Film film(small_film(), FilmLayout::of_routes({"all"}));
+  Film film(small_settings(), FilmLayout::of_routes({"all"}));
   add_one(film, 0, 2, 1, {1e9f, 0, 0});
   EXPECT_EQ(film.saturated_values(), 0u);
   add_one(film, 0, 2, 1, {1e20f, 0, 0});
@@ -132,7 +132,7 @@ TEST(Film, SaturationIsCounted) {
 }
 
 TEST(Film, ReplaceForgetsWhatWasThere) {
-  Film film(small_film(), FilmLayout::of_routes({"all"}));
+  Film film(small_settings(), FilmLayout::of_routes({"all"}));
   add_one(film, 0, 2, 1, {5, 5, 5});
   replace_one(film, 0, 2, 1, {1, 2, 3});
   film.set_estimates(0, 1);
@@ -143,7 +143,7 @@ TEST(Film, ReplaceForgetsWhatWasThere) {
 }
 
 TEST(Film, Features) {
-  Film film(small_film(), FilmLayout::of_routes({"all"}));
+  Film film(small_settings(), FilmLayout::of_routes({"all"}));
   film.add_features(2, 1, {0.5f, 0.25f, 1}, {0, 0, 1}, 10);
   film.add_features(2, 1, {0.5f, 0.75f, 1}, {0, 1, 0}, 20);
   film.add_features(2, 1, {0, 0, 0}, {0, 0, 0}, kInfinity);  // hit nothing
@@ -172,7 +172,7 @@ FilmLayout layout_with_aovs() {
 }
 
 TEST(Film, BadEstimatesAreThoseOfARouteAndAPixel) {
-  Film film(small_film(), layout_with_aovs()), other(small_film(), layout_with_aovs());
+  Film film(small_settings(), layout_with_aovs()), other(small_settings(), layout_with_aovs());
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(film.bad_estimates(0).first_pixel, BadEstimates::kNoPixel);
   film.count_bad(0, 0, {3, 2});
@@ -196,7 +196,7 @@ TEST(Film, BadEstimatesAreThoseOfARouteAndAPixel) {
 }
 
 TEST(Film, PartsAddUpToRoutesAovsAndBeauty) {
-  Film film(small_film(), layout_with_aovs());
+  Film film(small_settings(), layout_with_aovs());
   EXPECT_EQ(film.layout().group_count(), 2);
   EXPECT_EQ(film.parts_of(0), (std::vector<int>{0, 2, 3}));
   EXPECT_EQ(film.parts_of(1), (std::vector<int>{1}));
@@ -234,7 +234,7 @@ TEST(Film, PartsAddUpToRoutesAovsAndBeauty) {
 }
 
 TEST(Film, PartsThatCancelInEachEstimateHaveNoError) {
-  Film film(small_film(), layout_with_aovs());
+  Film film(small_settings(), layout_with_aovs());
   for (uint64_t i = 0; i < 20; ++i) {
     const float v = random_value(i);
     const Rgb values[] = {{v, 0, 0}, {3, 0, 0}, {-v, 0, 0}};
@@ -252,7 +252,7 @@ TEST(Film, SumsOfPartsAreRoundedOnce) {
   layout.aovs = {"same"};
   layout.groups = {0};
   layout.parts = {{0, {0}}, {0, {0}}};
-  Film film(small_film(), layout);
+  Film film(small_settings(), layout);
   const Rgb values[] = {{1, 0, 0}, {0x1p-23f, 0, 0}}, rest[] = {{0, 0, 0}, {-0x1p-25f, 0, 0}};
   film.add(0, 2, 1, values);
   film.add(0, 2, 1, rest);
@@ -262,7 +262,7 @@ TEST(Film, SumsOfPartsAreRoundedOnce) {
 }
 
 TEST(Film, AnEstimateWithOneBadPartIsLeftOutAsAWhole) {
-  Film film(small_film(), layout_with_aovs());
+  Film film(small_settings(), layout_with_aovs());
   const Rgb bad[] = {{1, 1, 1}, {0, std::numeric_limits<float>::quiet_NaN(), 0}, {1, 1, 1}};
   film.add(0, 2, 1, bad);
   film.add_estimates(0, 1);
@@ -273,7 +273,7 @@ TEST(Film, AnEstimateWithOneBadPartIsLeftOutAsAWhole) {
 }
 
 TEST(Film, ReplaceForgetsEveryPartOfItsGroupAlone) {
-  Film film(small_film(), layout_with_aovs());
+  Film film(small_settings(), layout_with_aovs());
   const Rgb before[] = {{1, 1, 1}, {2, 2, 2}, {4, 4, 4}},
             after[] = {{8, 8, 8}, {0, 0, 0}, {0, 0, 0}};
   film.add(0, 2, 1, before);
@@ -289,7 +289,7 @@ TEST(Film, ReplaceForgetsEveryPartOfItsGroupAlone) {
 
 // A lamp in view is much brighter than what 64 bits of a layer hold.
 TEST(Film, AovsOfBrightLampsAreExact) {
-  Film film(small_film(), layout_with_aovs()), other(small_film(), layout_with_aovs());
+  Film film(small_settings(), layout_with_aovs()), other(small_settings(), layout_with_aovs());
   const Rgb values[] = {{3e7f, 0.25f, 1}, {0, 0, 0}, {0, 0, 0}};
   for (int i = 0; i < 100; ++i) film.add(0, 2, 1, values);
   other.add(0, 2, 1, values);
@@ -300,7 +300,7 @@ TEST(Film, AovsOfBrightLampsAreExact) {
   EXPECT_EQ(other.aov_value(0, 2, 1).g, 0.25f);
   EXPECT_EQ(other.saturated_values(), 0u);
   // A state has all of it.
-  Film loaded(small_film(), layout_with_aovs());
+  Film loaded(small_settings(), layout_with_aovs());
   const RenderState from = other.state(), to = loaded.state();
   ASSERT_EQ(from.arrays.size(), to.arrays.size());
   for (size_t i = 0; i < from.arrays.size(); ++i)

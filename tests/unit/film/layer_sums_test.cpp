@@ -15,7 +15,7 @@
 namespace nephroid {
 namespace {
 
-constexpr double kStep = 0x1p-44;
+constexpr double kLayerStep = 0x1p-44;
 
 double red(const LayerSums& sums, size_t pixel) {
   return sums.sum(pixel).rgb[0].value();
@@ -42,17 +42,17 @@ std::vector<Rgb> colors(size_t count) {
 TEST(LayerSums, AddsInSteps) {
   LayerSums sums(2);
   EXPECT_TRUE(sums.add(1, Rgb{1, 0.25f, -3}));
-  EXPECT_TRUE(sums.add(1, Rgb{static_cast<float>(kStep), 0, 0}));
-  EXPECT_EQ(red(sums, 1), 1 + kStep);
+  EXPECT_TRUE(sums.add(1, Rgb{static_cast<float>(kLayerStep), 0, 0}));
+  EXPECT_EQ(red(sums, 1), 1 + kLayerStep);
   EXPECT_EQ(sums.sum(1).rgb[1].value(), 0.25);
   EXPECT_EQ(sums.sum(1).rgb[2].value(), -3);
   EXPECT_EQ(red(sums, 0), 0);
   // Half a step counts as one, less as none; x and -x cancel.
   for (const float value : {0.5f, 0.49f, -0.5f, -0.49f})
-    sums.add(0, Rgb{value * static_cast<float>(kStep), value, 0});
+    sums.add(0, Rgb{value * static_cast<float>(kLayerStep), value, 0});
   EXPECT_EQ(red(sums, 0), 0);
-  sums.add(0, Rgb{0.5f * static_cast<float>(kStep), 0, 0});
-  EXPECT_EQ(red(sums, 0), kStep);
+  sums.add(0, Rgb{0.5f * static_cast<float>(kLayerStep), 0, 0});
+  EXPECT_EQ(red(sums, 0), kLayerStep);
   sums.clear(1);
   EXPECT_EQ(red(sums, 1), 0);
 }
@@ -81,7 +81,7 @@ TEST(LayerSums, IsTheSumOfTheFilmUpToSteps) {
   }
   for (int c = 0; c < 3; ++c)
     EXPECT_NEAR(sums.sum(0).rgb[c].value(), exact.rgb[c].value(),
-                500 * kStep + 1e-15 * std::abs(exact.rgb[c].value()));
+                500 * kLayerStep + 1e-15 * std::abs(exact.rgb[c].value()));
 }
 
 TEST(LayerSums, CarriesAreThereWhereTheyAreNeeded) {

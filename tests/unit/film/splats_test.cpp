@@ -15,7 +15,7 @@
 namespace nephroid {
 namespace {
 
-constexpr int kWidth = 9, kHeight = 37;  // three strips of rows
+constexpr int kSplatWidth = 9, kSplatHeight = 37;  // three strips of rows
 
 std::unique_ptr<PixelFilter> filter_named(const std::string& name) {
   DirectiveDescription d;
@@ -26,8 +26,8 @@ std::unique_ptr<PixelFilter> filter_named(const std::string& name) {
 
 FilmSettings settings_of(const PixelBounds& crop = {}) {
   FilmSettings settings;
-  settings.width = kWidth;
-  settings.height = kHeight;
+  settings.width = kSplatWidth;
+  settings.height = kSplatHeight;
   settings.crop = crop;
   return settings;
 }
@@ -49,7 +49,7 @@ float smooth(const Vec2f& film) {
 /// Positions that fill the film and a margin of `margin` pixels evenly, with their values for an
 /// expected density of one per pixel.
 std::vector<Splat> dense_splats(uint32_t count, float margin, float (*function)(const Vec2f&)) {
-  const float width = kWidth + 2 * margin, height = kHeight + 2 * margin;
+  const float width = kSplatWidth + 2 * margin, height = kSplatHeight + 2 * margin;
   const float worth = width * height / static_cast<float>(count);
   std::vector<Splat> splats;
   for (uint32_t i = 0; i < count; ++i) {
@@ -99,8 +99,8 @@ TEST_P(Splats, WeightsAddUpToOneInEveryPixel) {
     return (size + static_cast<int>(std::ceil(r + 1))) * kAcross;
   };
   const PixelBounds crop{3, 14, 6, 18};  // on both sides of a strip's border
-  for (int j = first(radius.y); j < last(kHeight, radius.y); ++j)
-    for (int i = first(radius.x); i < last(kWidth, radius.x); ++i) {
+  for (int j = first(radius.y); j < last(kSplatHeight, radius.y); ++j)
+    for (int i = first(radius.x); i < last(kSplatWidth, radius.x); ++i) {
       Splat splat;
       splat.film =
           Vec2f((static_cast<float>(i) + 0.5f) / kAcross, (static_cast<float>(j) + 0.5f) / kAcross);
@@ -128,8 +128,8 @@ TEST_P(Splats, OneSplatSpreadsOneOverThePixels) {
     return film_of(splats, *filter, {}, 1.0 / (32 * 32));
   }();
   double sum = 0;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) sum += double{film.value(x, y).r};
+  for (int y = 0; y < kSplatHeight; ++y)
+    for (int x = 0; x < kSplatWidth; ++x) sum += double{film.value(x, y).r};
   EXPECT_NEAR(sum, 1, 1e-3);
 }
 
@@ -138,7 +138,7 @@ TEST_P(Splats, AgreesWithFilterImportanceSampling) {
   const float margin = std::max(filter->radius().x, filter->radius().y) + 1;
   const Film film = film_of(dense_splats(1 << 17, margin, smooth), *filter);
   // Corner, border and middle: at the border half of the filter is outside the film.
-  const int pixels[][2] = {{0, 0}, {kWidth - 1, 20}, {4, 15}, {4, 16}, {2, kHeight - 1}};
+  const int pixels[][2] = {{0, 0}, {kSplatWidth - 1, 20}, {4, 15}, {4, 16}, {2, kSplatHeight - 1}};
   for (const auto& [x, y] : pixels) {
     double sum = 0, squares = 0;
     constexpr int kSamples = 1 << 13;

@@ -14,7 +14,6 @@ namespace {
 
 using testing::parse;
 
-constexpr double kPiDouble = 3.14159265358979323846;
 /// A small plate around the origin.
 const std::string kPlate =
     "WorldBegin\nShape \"trianglemesh\" \"point3 P\" [-.01 0 -.01 .01 0 -.01 .01 0 .01 -.01 0 "
@@ -112,8 +111,8 @@ struct Staged {
   std::vector<Warning> notes;
 };
 
-Staged staged(const std::string& text, const FormatTraits& format = {},
-              const ImportOptions& options = {}) {
+Staged exposed(const std::string& text, const FormatTraits& format = {},
+               const ImportOptions& options = {}) {
   SceneDescription scene = parse("Camera \"perspective\"\n" + kPlate + text);
   Diagnostics diagnostics;
   stage_scene(&scene, format, options, diagnostics);
@@ -124,7 +123,7 @@ Staged staged(const std::string& text, const FormatTraits& format = {},
 const std::string kSunlight = "LightSource \"distant\" \"rgb L\" [50000 50000 50000]\n";
 
 TEST(ChosenExposure, GivesAWhiteSurfaceTheValueOne) {
-  const Staged chosen = staged(kSunlight);
+  const Staged chosen = exposed(kSunlight);
   EXPECT_NEAR(chosen.iso / 100 * 50000 / kPiDouble, 1, 1e-5);
   ASSERT_EQ(chosen.notes.size(), 1u);
   EXPECT_EQ(chosen.notes[0].message,
@@ -135,26 +134,26 @@ TEST(ChosenExposure, GivesAWhiteSurfaceTheValueOne) {
 TEST(ChosenExposure, YieldsToTheUserTheSunAndTheFilesOwn) {
   ImportOptions given;
   given.exposure = 0;
-  EXPECT_EQ(staged(kSunlight, {}, given).iso, 100);
+  EXPECT_EQ(exposed(kSunlight, {}, given).iso, 100);
   given.exposure = 3;
-  EXPECT_EQ(staged(kSunlight, {}, given).iso, 800);
+  EXPECT_EQ(exposed(kSunlight, {}, given).iso, 800);
   ImportOptions sun;
   sun.sun = SunDirection{30, 90};
   const std::string lamp = "LightSource \"point\" \"rgb I\" [1 1 1]\n";
-  EXPECT_EQ(staged(lamp, {}, sun).iso, staged("", {}, sun).iso);
-  const Staged own = staged(kSunlight, {.has_exposure = true});
+  EXPECT_EQ(exposed(lamp, {}, sun).iso, exposed("", {}, sun).iso);
+  const Staged own = exposed(kSunlight, {.has_exposure = true});
   EXPECT_EQ(own.iso, 100);
   EXPECT_TRUE(own.notes.empty());
 }
 
 TEST(ChosenExposure, LeavesTheStudioLightAlone) {
-  EXPECT_EQ(staged("").iso, 100);
+  EXPECT_EQ(exposed("").iso, 100);
 }
 
 TEST(ChosenExposure, IsNotForDisplaysThatGlow) {
   const auto note = [](const std::string& emission) {
     const Staged s =
-        staged("Translate 0 9 0 AreaLightSource \"diffuse\" " + emission + kCube, {.glow = 1});
+        exposed("Translate 0 9 0 AreaLightSource \"diffuse\" " + emission + kCube, {.glow = 1});
     EXPECT_EQ(s.notes.size(), 1u);
     return s.notes.at(0).message.substr(0, 25);
   };

@@ -12,13 +12,13 @@ namespace {
 using testing::error_of;
 using testing::TemporaryDirectory;
 
-struct Case {
+struct FileCase {
   const char* name;
   std::string bytes;
   const char* what;  ///< empty: it may be a scene
 };
 
-const Case kCases[] = {
+const FileCase kCases[] = {
     {"a", "{ \"asset\": { \"version\": \"2.0\" } }", "a glTF scene"},
     {"a.gltf", "\xef\xbb\xbf\n {\"scenes\": [], \"asset\": {}}", "a glTF scene"},
     {"a", "{ \"x\": 1 }", "a JSON file"},
@@ -50,7 +50,7 @@ const Case kCases[] = {
 };
 
 TEST(ForeignFile, IsKnownByItsContentAndElseByItsName) {
-  for (const Case& c : kCases) {
+  for (const FileCase& c : kCases) {
     const std::string error = foreign_file_error(c.bytes, c.name);
     const std::string begin = "this is " + std::string(c.what) + ", expected a pbrt-v4 scene";
     if (*c.what == '\0')

@@ -105,7 +105,7 @@ TEST(GltfAccessor, IntegersAreExact) {
 }
 
 /// The error for an accessor of these members over 16 bytes.
-std::string error_of(const std::string& members) {
+std::string accessor_error(const std::string& members) {
   GltfText file;
   file.add_view(testing::bytes_of_values(std::vector<float>{1, 2, 3, 4}));
   file.add_raw_accessor(members);
@@ -114,14 +114,14 @@ std::string error_of(const std::string& members) {
 
 TEST(GltfAccessor, RefusesWhatReachesBeyondItsView) {
   const std::string floats = R"("bufferView":0,"componentType":5126,"type":"SCALAR",)";
-  EXPECT_EQ(error_of(floats + R"("count":4)"), "");
-  EXPECT_EQ(error_of(floats + R"("count":5)"),
+  EXPECT_EQ(accessor_error(floats + R"("count":4)"), "");
+  EXPECT_EQ(accessor_error(floats + R"("count":5)"),
             "#/accessors/0: 5 elements reach beyond the buffer view, which has 16 bytes");
-  EXPECT_NE(error_of(floats + R"("count":9000000000000000)"), "");
-  EXPECT_NE(error_of(floats + R"("count":1,"byteOffset":13)"), "");
-  EXPECT_NE(error_of(floats + R"("count":1,"byteOffset":9000000000000000)"), "");
-  EXPECT_NE(error_of(floats + R"("count":-1)"), "");
-  EXPECT_NE(error_of(R"("componentType":5126,"type":"SCALAR","count":100000000)"), "");
+  EXPECT_NE(accessor_error(floats + R"("count":9000000000000000)"), "");
+  EXPECT_NE(accessor_error(floats + R"("count":1,"byteOffset":13)"), "");
+  EXPECT_NE(accessor_error(floats + R"("count":1,"byteOffset":9000000000000000)"), "");
+  EXPECT_NE(accessor_error(floats + R"("count":-1)"), "");
+  EXPECT_NE(accessor_error(R"("componentType":5126,"type":"SCALAR","count":100000000)"), "");
 }
 
 TEST(GltfAccessor, PackedBytesHoldSoManyElements) {
@@ -145,14 +145,14 @@ TEST(GltfAccessor, PackedBytesHoldSoManyElements) {
 }
 
 TEST(GltfAccessor, RefusesUnknownTypes) {
-  EXPECT_EQ(error_of(R"("bufferView":0,"componentType":5124,"type":"SCALAR","count":1)"),
+  EXPECT_EQ(accessor_error(R"("bufferView":0,"componentType":5124,"type":"SCALAR","count":1)"),
             "#/accessors/0/componentType: unknown component type 5124, expected 5120 to 5123, 5125 "
             "or 5126");
-  EXPECT_EQ(error_of(R"("bufferView":0,"componentType":5126,"type":"VEC5","count":1)"),
+  EXPECT_EQ(accessor_error(R"("bufferView":0,"componentType":5126,"type":"VEC5","count":1)"),
             "#/accessors/0/type: unknown type \"VEC5\", expected SCALAR, VEC2 to VEC4 or MAT2 to "
             "MAT4");
   EXPECT_EQ(
-      error_of(R"("bufferView":7,"componentType":5126,"type":"VEC3","count":1)"),
+      accessor_error(R"("bufferView":7,"componentType":5126,"type":"VEC3","count":1)"),
       "#/accessors/0: index 7 into \"bufferViews\" is out of range, expected an index below 1");
 }
 

@@ -9,8 +9,6 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
-
 std::string film(int width, int height, const std::string& body = "") {
   return "<film type=\"hdrfilm\">" + value("integer", "width", std::to_string(width)) +
          value("integer", "height", std::to_string(height)) + body + "</film>";

@@ -14,8 +14,6 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
-
 std::string emitter(const std::string& type, const std::string& body = "") {
   return "<emitter type=\"" + type + "\">" + body + "</emitter>\n";
 }

@@ -14,7 +14,7 @@ using Numbers = std::vector<double>;
 std::string shape(const std::string& type, const std::string& body = "") {
   return "<shape type=\"" + type + "\">" + body + "</shape>\n";
 }
-std::string file(const std::string& name) {
+std::string shape_file(const std::string& name) {
   return "<string name=\"filename\" value=\"" + name + "\"/>\n";
 }
 
@@ -111,8 +111,8 @@ TEST(MitsubaShape, SerializedMeshesOfBothVersionsAndPrecisions) {
       scene.folder().write("m.serialized", serialized_file({first, second}));
       const ShapeDescription s =
           scene
-              .read(shape("serialized",
-                          file("m.serialized") + "<integer name=\"shapeIndex\" value=\"1\"/>"))
+              .read(shape("serialized", shape_file("m.serialized") +
+                                            "<integer name=\"shapeIndex\" value=\"1\"/>"))
               .shapes[0];
       EXPECT_EQ(point_at(s, 3), Vec3d(1, 1, 7));
       EXPECT_EQ(parameter(s.parameters, "indices").numbers, (Numbers{0, 1, 2, 0, 2, 3}));
@@ -168,7 +168,7 @@ TEST(MitsubaShape, MeshesWithoutNormalsBecomeSmoothUnlessTheyAreFaceted) {
   MitsubaScene scene;
   // Two faces of a roof; the ridge is shared.
   scene.folder().write("roof.obj", "v -1 0 0\nv 0 1 0\nv 1 0 0\nv 0 1 1\nf 1 2 4\nf 2 3 4\n");
-  const ShapeDescription smooth = scene.read(shape("obj", file("roof.obj"))).shapes[0];
+  const ShapeDescription smooth = scene.read(shape("obj", shape_file("roof.obj"))).shapes[0];
   const Numbers n = parameter(smooth.parameters, "N").numbers;
   const double length = std::sqrt(0.5);
   // Corners of one face have its normal, those of the ridge the mean, by angle.
@@ -178,7 +178,9 @@ TEST(MitsubaShape, MeshesWithoutNormalsBecomeSmoothUnlessTheyAreFaceted) {
   EXPECT_NEAR(ridge.length(), 1, 1e-6);
   EXPECT_LT(std::abs(ridge.x), length);
   const ShapeDescription faceted =
-      scene.read(shape("obj", file("roof.obj") + "<boolean name=\"faceNormals\" value=\"true\"/>"))
+      scene
+          .read(shape("obj",
+                      shape_file("roof.obj") + "<boolean name=\"faceNormals\" value=\"true\"/>"))
           .shapes[0];
   EXPECT_FALSE(has_parameter(faceted.parameters, "N"));
 }
@@ -198,13 +200,13 @@ TEST(MitsubaShape, MirrorsTurnMeshesWithoutNormalsOver) {
   const auto is_turned = [&](const std::string& type, const std::string& body) {
     return scene.read(shape(type, body)).shapes.at(0).reverse_orientation;
   };
-  EXPECT_TRUE(is_turned("obj", file("bare.obj") + mirror));
-  EXPECT_TRUE(is_turned("obj", file("bare.obj") + mirror + faceted));
-  EXPECT_TRUE(is_turned("obj", file("full.obj") + mirror + faceted));
-  EXPECT_TRUE(is_turned("ply", file("bare.ply") + mirror + faceted));
-  EXPECT_FALSE(is_turned("obj", file("bare.obj")));
-  EXPECT_FALSE(is_turned("obj", file("full.obj") + mirror));
-  EXPECT_FALSE(is_turned("obj", file("bare.obj") + mirror + flip));
+  EXPECT_TRUE(is_turned("obj", shape_file("bare.obj") + mirror));
+  EXPECT_TRUE(is_turned("obj", shape_file("bare.obj") + mirror + faceted));
+  EXPECT_TRUE(is_turned("obj", shape_file("full.obj") + mirror + faceted));
+  EXPECT_TRUE(is_turned("ply", shape_file("bare.ply") + mirror + faceted));
+  EXPECT_FALSE(is_turned("obj", shape_file("bare.obj")));
+  EXPECT_FALSE(is_turned("obj", shape_file("full.obj") + mirror));
+  EXPECT_FALSE(is_turned("obj", shape_file("bare.obj") + mirror + flip));
   // Mitsuba's own shapes have normals.
   EXPECT_FALSE(is_turned("rectangle", mirror));
   EXPECT_FALSE(is_turned("cube", mirror));
@@ -215,12 +217,13 @@ TEST(MitsubaShape, TextureCoordinatesOfFilesAreTurnedOver) {
   scene.folder().write("uv.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.25\nf 1/1 2/1 3/1\n");
   const std::string flip = "<boolean name=\"flipTexCoords\" value=\"false\"/>";
   // Mitsuba turns those of OBJ over by itself.
-  EXPECT_EQ(
-      parameter(scene.read(shape("obj", file("uv.obj"))).shapes[0].parameters, "uv").numbers.at(1),
-      0.25);
-  EXPECT_EQ(parameter(scene.read(shape("obj", file("uv.obj") + flip)).shapes[0].parameters, "uv")
+  EXPECT_EQ(parameter(scene.read(shape("obj", shape_file("uv.obj"))).shapes[0].parameters, "uv")
                 .numbers.at(1),
-            0.75);
+            0.25);
+  EXPECT_EQ(
+      parameter(scene.read(shape("obj", shape_file("uv.obj") + flip)).shapes[0].parameters, "uv")
+          .numbers.at(1),
+      0.75);
 }
 
 TEST(MitsubaShape, PlyFilesWithNormalsAreLeftToTheLoader) {
@@ -236,13 +239,13 @@ TEST(MitsubaShape, PlyFilesWithNormalsAreLeftToTheLoader) {
   scene.folder().write("n.ply",
                        ply("property float nx\nproperty float ny\nproperty float nz\n", " 0 0 1"));
   scene.folder().write("uv.ply", ply("property float u\nproperty float v\n", " 0.5 0.25"));
-  const ShapeDescription direct = scene.read(shape("ply", file("n.ply"))).shapes[0];
+  const ShapeDescription direct = scene.read(shape("ply", shape_file("n.ply"))).shapes[0];
   EXPECT_EQ(direct.type, "plymesh");
   EXPECT_EQ(text(direct.parameters, "filename"), "n.ply");
-  const ShapeDescription with_uv = scene.read(shape("ply", file("uv.ply"))).shapes[0];
+  const ShapeDescription with_uv = scene.read(shape("ply", shape_file("uv.ply"))).shapes[0];
   EXPECT_EQ(with_uv.type, "trianglemesh");
   EXPECT_EQ(parameter(with_uv.parameters, "uv").numbers.at(1), 0.75);
-  EXPECT_NE(scene.error(shape("ply", file("none.ply"))).find("scene.xml:2:19: "),
+  EXPECT_NE(scene.error(shape("ply", shape_file("none.ply"))).find("scene.xml:2:19: "),
             std::string::npos);
 }
 
@@ -257,7 +260,7 @@ TEST(MitsubaShape, ColoursOfPlyFilesAreReadWhereATextureWantsThem) {
   const auto colors = [&](const std::string& texture, const std::string& body,
                           const std::string& version) {
     return parameter(scene
-                         .read(shape("ply", file("c.ply") + body +
+                         .read(shape("ply", shape_file("c.ply") + body +
                                                 "<bsdf type=\"diffuse\"><texture type=\"" +
                                                 texture + "\" name=\"reflectance\"/></bsdf>"),
                                version)
@@ -271,21 +274,21 @@ TEST(MitsubaShape, ColoursOfPlyFilesAreReadWhereATextureWantsThem) {
   EXPECT_NEAR(colors("vertexcolors", "<boolean name=\"srgb\" value=\"false\"/>", "0.6.0"),
               128 / 255.0, 1e-6);
   EXPECT_NEAR(colors("mesh_attribute", "", "3.0.0"), 128 / 255.0, 1e-6);
-  EXPECT_FALSE(
-      has_parameter(scene.read(shape("ply", file("c.ply"))).shapes[0].parameters, "vertexcolors"));
+  EXPECT_FALSE(has_parameter(scene.read(shape("ply", shape_file("c.ply"))).shapes[0].parameters,
+                             "vertexcolors"));
 }
 
 TEST(MitsubaShape, HairIsStraightFromPointToPoint) {
   MitsubaScene scene;
   scene.folder().write("hair.txt", "0 0 0\n0 0 3\n\n\n1 0 0\n1 0 3\n1 3 3\n");
   const SceneDescription d =
-      scene.read(shape("hair", file("hair.txt") + "<float name=\"radius\" value=\"0.1\"/>"));
+      scene.read(shape("hair", shape_file("hair.txt") + "<float name=\"radius\" value=\"0.1\"/>"));
   ASSERT_EQ(d.shapes.size(), 2u);
   EXPECT_EQ(number(d.shapes[0].parameters, "width0"), 0.2);
   ASSERT_EQ(parameter(d.shapes[1].parameters, "P").numbers.size(), 21u);
   EXPECT_NEAR((point_at(d.shapes[1], 4) - Vec3d(1, 1, 3)).length(), 0, 1e-6);
   scene.folder().write("bad.txt", "0 0 0\n0 0\n");
-  EXPECT_EQ(scene.error(shape("hair", file("bad.txt"))),
+  EXPECT_EQ(scene.error(shape("hair", shape_file("bad.txt"))),
             "scene.xml:2:20: line 2 of the file has no point, expected x, y and z");
 }
 
@@ -300,21 +303,23 @@ TEST(MitsubaShape, BinaryHairHasInfiniteMarks) {
     add(x);
   MitsubaScene scene;
   scene.folder().write("hair.bin", bytes);
-  EXPECT_EQ(scene.read(shape("hair", file("hair.bin"))).shapes.size(), 2u);
+  EXPECT_EQ(scene.read(shape("hair", shape_file("hair.bin"))).shapes.size(), 2u);
   scene.folder().write("cut.bin", bytes.substr(0, bytes.size() - 1));
-  EXPECT_NE(scene.error(shape("hair", file("cut.bin"))).find("ends too early"), std::string::npos);
+  EXPECT_NE(scene.error(shape("hair", shape_file("cut.bin"))).find("ends too early"),
+            std::string::npos);
 }
 
 TEST(MitsubaShape, CurvesHaveLinearRadii) {
   MitsubaScene scene;
   scene.folder().write("c.txt", "0 0 0 1\n0 0 1 2\n0 0 2 3\n0 0 3 4\n");
-  const ShapeDescription s = scene.read(shape("bsplinecurve", file("c.txt")), "3.0.0").shapes[0];
+  const ShapeDescription s =
+      scene.read(shape("bsplinecurve", shape_file("c.txt")), "3.0.0").shapes[0];
   EXPECT_EQ(text(s.parameters, "basis"), "bspline");
   EXPECT_EQ(number(s.parameters, "width0"), 2);
   EXPECT_EQ(number(s.parameters, "width1"), 8);
   EXPECT_EQ(scene.warnings(), "");
   scene.folder().write("bulge.txt", "0 0 0 1\n0 0 1 2\n0 0 2 2\n0 0 3 1\n");
-  scene.read(shape("bsplinecurve", file("bulge.txt")), "3.0.0");
+  scene.read(shape("bsplinecurve", shape_file("bulge.txt")), "3.0.0");
   EXPECT_NE(scene.warnings().find("radii are linear"), std::string::npos);
 }
 

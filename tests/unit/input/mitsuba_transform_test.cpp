@@ -20,33 +20,33 @@ Vec3d moved(const std::string& elements, const Vec3d& point) {
   return result;
 }
 
-void expect_near(const Vec3d& found, const Vec3d& expected) {
+void expect_close(const Vec3d& found, const Vec3d& expected) {
   EXPECT_NEAR((found - expected).length(), 0, 1e-9) << found.x << " " << found.y << " " << found.z;
 }
 
 TEST(MitsubaTransform, LaterElementsAreAppliedLater) {
-  expect_near(moved("<scale value=\"2\"/><translate x=\"1\"/>", {1, 1, 1}), {3, 2, 2});
-  expect_near(moved("<translate x=\"1\"/><scale x=\"2\" y=\"3\"/>", {1, 1, 1}), {4, 3, 1});
+  expect_close(moved("<scale value=\"2\"/><translate x=\"1\"/>", {1, 1, 1}), {3, 2, 2});
+  expect_close(moved("<translate x=\"1\"/><scale x=\"2\" y=\"3\"/>", {1, 1, 1}), {4, 3, 1});
 }
 
 TEST(MitsubaTransform, RotationsAreRightHanded) {
-  expect_near(moved("<rotate z=\"1\" angle=\"90\"/>", {1, 0, 0}), {0, 1, 0});
-  expect_near(moved("<rotate value=\"0, 2, 0\" angle=\"90\"/>", {0, 0, 1}), {1, 0, 0});
+  expect_close(moved("<rotate z=\"1\" angle=\"90\"/>", {1, 0, 0}), {0, 1, 0});
+  expect_close(moved("<rotate value=\"0, 2, 0\" angle=\"90\"/>", {0, 0, 1}), {1, 0, 0});
 }
 
 TEST(MitsubaTransform, MatricesMultiplyColumns) {
-  expect_near(moved("<matrix value=\"0 -1 0 5  1 0 0 6  0 0 1 7  0 0 0 1\"/>", {1, 2, 3}),
-              {3, 7, 10});
-  expect_near(moved("<matrix value=\"0 -1 0  1 0 0  0 0 1\"/>", {1, 2, 3}), {-2, 1, 3});
+  expect_close(moved("<matrix value=\"0 -1 0 5  1 0 0 6  0 0 1 7  0 0 0 1\"/>", {1, 2, 3}),
+               {3, 7, 10});
+  expect_close(moved("<matrix value=\"0 -1 0  1 0 0  0 0 1\"/>", {1, 2, 3}), {-2, 1, 3});
 }
 
 TEST(MitsubaTransform, LookAtTurnsZToTheTargetAndXToTheLeft) {
   const std::string look = "<lookat origin=\"1, 2, 3\" target=\"1, 2, 0\" up=\"0, 1, 0\"/>";
-  expect_near(moved(look, {0, 0, 0}), {1, 2, 3});
-  expect_near(moved(look, {0, 0, 1}), {1, 2, 2});
-  expect_near(moved(look, {0, 1, 0}), {1, 3, 3});
+  expect_close(moved(look, {0, 0, 0}), {1, 2, 3});
+  expect_close(moved(look, {0, 0, 1}), {1, 2, 2});
+  expect_close(moved(look, {0, 1, 0}), {1, 3, 3});
   // Who looks along -z has -x at the left.
-  expect_near(moved(look, {1, 0, 0}), {0, 2, 3});
+  expect_close(moved(look, {1, 0, 0}), {0, 2, 3});
 }
 
 TEST(MitsubaTransform, AnimationsHaveAFirstAndALastKeyframe) {

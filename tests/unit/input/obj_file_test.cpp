@@ -12,7 +12,7 @@ namespace {
 using testing::error_of;
 using testing::TemporaryDirectory;
 
-constexpr const char* kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+constexpr const char* kObjSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 class ObjFileTest : public ::testing::Test {
  protected:
@@ -38,7 +38,7 @@ class ObjFileTest : public ::testing::Test {
 };
 
 TEST_F(ObjFileTest, CornersWithTheSameIndicesShareAVertex) {
-  const ObjFile file = read(std::string(kSquare) +
+  const ObjFile file = read(std::string(kObjSquare) +
                             "vt 0 0\nvt 1 .5\nvn 0 0 1\n"
                             "f 1/1/1 2/1/1 3/2/1\nf 1/1/1 3/2/1 4/1/1\nf 1/2/1 2/1/1 3/2/1\n");
   ASSERT_EQ(file.parts.size(), 1u);
@@ -75,7 +75,7 @@ TEST_F(ObjFileTest, PolygonsKeepTheirAreaConvexOrNot) {
 
 TEST_F(ObjFileTest, APartIsAnObjectAGroupAndAMaterial) {
   const ObjFile file =
-      read(std::string(kSquare) +
+      read(std::string(kObjSquare) +
            "vn 0 0 1\no cup\ng rim top\nusemtl red clay\nf 1 2 3\nusemtl b\nf 1 2 4\n"
            "usemtl red clay\nf 2 3 4\nf 1//1 2//1 3//1\n");
   ASSERT_EQ(file.parts.size(), 3u);
@@ -89,12 +89,12 @@ TEST_F(ObjFileTest, APartIsAnObjectAGroupAndAMaterial) {
 }
 
 TEST_F(ObjFileTest, AFaceUsesOnlyWhatAllItsCornersHave) {
-  const ObjFile file = read(std::string(kSquare) + "vt 0 0\nf 1/1 2/1 3\n");
+  const ObjFile file = read(std::string(kObjSquare) + "vt 0 0\nf 1/1 2/1 3\n");
   EXPECT_TRUE(file.parts.at(0).mesh.uvs.empty());
 }
 
 TEST_F(ObjFileTest, LinesMayContinueAndNamesMayHoldBlanks) {
-  const ObjFile file = read(std::string("\xef\xbb\xbf# made by hand\r\n") + kSquare +
+  const ObjFile file = read(std::string("\xef\xbb\xbf# made by hand\r\n") + kObjSquare +
                             "mtllib my clay.mtl other.mtl\r\nf 1 \\\r\n 2 \\\n3 # a face\n");
   ASSERT_EQ(file.libraries.size(), 2u);
   EXPECT_EQ(file.libraries[0].name, "my clay.mtl");
@@ -104,7 +104,7 @@ TEST_F(ObjFileTest, LinesMayContinueAndNamesMayHoldBlanks) {
 
 TEST_F(ObjFileTest, JoinedMeshHasAllParts) {
   const MeshData mesh = joined_mesh(
-      read(std::string(kSquare) + "vt .5 .5\nvn 0 0 1\nf 1 2 3\nf 1/1/1 2/1/1 3/1/1\n"));
+      read(std::string(kObjSquare) + "vt .5 .5\nvn 0 0 1\nf 1 2 3\nf 1/1/1 2/1/1 3/1/1\n"));
   EXPECT_EQ(mesh.triangles, (std::vector<uint32_t>{0, 1, 2, 3, 4, 5}));
   EXPECT_EQ(mesh.normals.at(0), Vec3f(0, 0, 0));
   EXPECT_EQ(mesh.normals.at(3), Vec3f(0, 0, 1));
@@ -113,7 +113,7 @@ TEST_F(ObjFileTest, JoinedMeshHasAllParts) {
 }
 
 TEST_F(ObjFileTest, WrongLinesAreErrors) {
-  const std::string square = kSquare;
+  const std::string square = kObjSquare;
   EXPECT_EQ(error_in("v 0 0\n"), ":1: the line has 2 numbers, expected at least 3");
   EXPECT_EQ(error_in("v 0 0 x\n"), ":1: \"x\" is not a number, expected one as in 1.5 or 2e-3");
   EXPECT_EQ(error_in("vn 0 0 1 1\n"), ":1: the line has too many numbers, expected at most 3");
@@ -140,7 +140,7 @@ TEST_F(ObjFileTest, WrongLinesAreErrors) {
 TEST_F(ObjFileTest, FacesHaveAtMostSoManyCorners) {
   std::string face = "f";
   for (int i = 0; i < 16385; ++i) face += " 1";
-  EXPECT_EQ(error_in(std::string(kSquare) + face + "\n"),
+  EXPECT_EQ(error_in(std::string(kObjSquare) + face + "\n"),
             ":5: the face has too many corners, expected at most 16384");
 }
 

@@ -44,13 +44,14 @@ TEST(EyePartialWeights, AreThoseOfOneSideWhereAllMerges) {
 
 // The rule: a merge at a D needs a caster behind it, one at a G needs an S. Casters are S alone, or
 // G as well. If any event is a caster, a merge at a D or a G needs some event behind it.
-class Casters : public testing::TestWithParam<std::tuple<ClassMask, std::string>> {};
+class Casters : public ::testing::TestWithParam<std::tuple<ClassMask, std::string>> {};
 INSTANTIATE_TEST_SUITE_P(
     EyePartialWeights, Casters,
-    testing::Combine(testing::Values(ClassMask::kSpecular,
-                                     ClassMask::kSpecular | ClassMask::kGlossy, ClassMask::kAll),
-                     testing::Values("DD", "DS", "DG", "GS", "GG", "DGD", "DSD", "GSGD", "DDGSGD",
-                                     "GDSDG", "DVGGDSD")));
+    ::testing::Combine(::testing::Values(ClassMask::kSpecular,
+                                         ClassMask::kSpecular | ClassMask::kGlossy,
+                                         ClassMask::kAll),
+                       ::testing::Values("DD", "DS", "DG", "GS", "GG", "DGD", "DSD", "GSGD",
+                                         "DDGSGD", "GDSDG", "DVGGDSD")));
 
 TEST_P(Casters, LetVerticesBeforeThemMerge) {
   const ClassMask casters = std::get<0>(GetParam());

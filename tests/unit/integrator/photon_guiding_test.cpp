@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_support;
 
-const std::string kView = R"(
+const std::string kGuidedView = R"(
   LookAt 0 3 -4  0 0 0  0 1 0
   Camera "perspective" "float fov" 30
   Film "rgb" "integer xresolution" 64 "integer yresolution" 64
@@ -25,7 +25,7 @@ const std::string kView = R"(
   LightSource "point" "rgb I" [900 900 900] "point3 from" [20 60 -10]
   Material "diffuse"
   Shape "bilinearmesh" "point3 P" [-90 0 -90  90 0 -90  -90 0 90  90 0 90])";
-const std::string kGlass = R"(
+const std::string kGuidedGlass = R"(
   AttributeBegin Translate 0 0.4 0
     Material "dielectric" Shape "sphere" "float radius" 0.3 AttributeEnd)";
 const std::string kMirrorBehindTheEye = R"(
@@ -41,12 +41,12 @@ std::vector<Vec3f> casters_of(const std::string& text, const IntegratorOptions& 
 }
 
 TEST(CausticCasters, AreWhatSpecularRunsEndOn) {
-  EXPECT_TRUE(casters_of(kView).empty());
-  const auto glass = casters_of(kView + kGlass);
+  EXPECT_TRUE(casters_of(kGuidedView).empty());
+  const auto glass = casters_of(kGuidedView + kGuidedGlass);
   EXPECT_GT(glass.size(), 20u);
   for (const Vec3f& p : glass) EXPECT_NEAR(length(p - Vec3f(0, 0.4f, 0)), 0.3f, 1e-4f);
   // Visible from the floor, not from the camera.
-  const auto mirror = casters_of(kView + kMirrorBehindTheEye);
+  const auto mirror = casters_of(kGuidedView + kMirrorBehindTheEye);
   EXPECT_GT(mirror.size(), 20u);
   for (const Vec3f& p : mirror) EXPECT_NEAR(p.z, -6, 1e-4f);
   // Glass in front of the camera is no caster: no rough vertex precedes it.
@@ -60,13 +60,13 @@ TEST(CausticCasters, AreWhatSpecularRunsEndOn) {
 TEST(CausticCasters, HaveNoNumbersOfTheirOwnInPathsThatAreTooShort) {
   IntegratorOptions options;
   options.max_depth = 1;
-  EXPECT_TRUE(casters_of(kView + kGlass, options).empty());
+  EXPECT_TRUE(casters_of(kGuidedView + kGuidedGlass, options).empty());
 }
 
 TEST(PhotonGuiding, FindsASmallThingThatChanceDoesNot) {
   // The lamp emits 6 of a million photons towards the glass: a tenth of a path of the 16384 of a
   // round.
-  const auto scene = scene_from_text(kView + kGlass);
+  const auto scene = scene_from_text(kGuidedView + kGuidedGlass);
   const EstimatorSet set = make_estimators(Plan("doidge2012"), {}, *scene);
   const Film film = film_for(*scene, set);
   size_t group = 0;
@@ -95,7 +95,7 @@ TEST(PhotonGuiding, FindsASmallThingThatChanceDoesNot) {
 // A lamp lights a spot on the floor, six metres away. Almost none of the scattered light hits the
 // glass by chance.
 TEST(PhotonGuiding, AimFromTheFloorAtTheGlass) {
-  std::string text = kView + kGlass;
+  std::string text = kGuidedView + kGuidedGlass;
   const std::string lamp = R"(LightSource "point" "rgb I" [900 900 900] "point3 from" [20 60 -10])";
   text.replace(text.find(lamp), lamp.size(),
                R"(LightSource "spot" "rgb I" [90 90 90] "point3 from" [6 3 0] "point3 to" [6 0 0]
@@ -121,7 +121,7 @@ TEST(PhotonGuiding, AimFromTheFloorAtTheGlass) {
 
 // Casters exist, but no light reaches them: there is nothing to guide.
 TEST(PhotonGuiding, StandsLampsThatAreBlack) {
-  std::string text = kView + kGlass;
+  std::string text = kGuidedView + kGuidedGlass;
   const std::string lamp = "[900 900 900]";
   text.replace(text.find(lamp), lamp.size(), "[0 0 0]");
   const auto scene = scene_from_text(text);

@@ -40,7 +40,7 @@ TEST(WavelengthsOfPass, PlacesAreEvenlySpacedAndHeroesInAllIntervals) {
   for (const uint64_t seed : {1, 2, 3})
     for (const uint32_t count : {2u, 4u, 8u, 16u, 64u, 256u})
       for (const uint32_t block : {0u, 1u, 5u, 77u}) {
-        SCOPED_TRACE(testing::Message() << count << " passes from " << block * count);
+        SCOPED_TRACE(::testing::Message() << count << " passes from " << block * count);
         std::vector<double> places;
         std::set<int> intervals;
         for (uint32_t pass = block * count; pass < (block + 1) * count; ++pass) {

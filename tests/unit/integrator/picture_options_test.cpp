@@ -9,12 +9,12 @@ namespace {
 
 using namespace testing_support;
 
-const std::string kFilm =
+const std::string kPlainFilm =
     R"(PixelFilter "box" Film "rgb" "integer xresolution" 4 "integer yresolution" 4 )";
 
 // A wall that is half lamp: without jitter each pixel is all lamp or none, without noise.
 TEST(Options, PixelsWithoutJitter) {
-  const std::string world = R"(Camera "orthographic" )" + kFilm + R"(WorldBegin
+  const std::string world = R"(Camera "orthographic" )" + kPlainFilm + R"(WorldBegin
       AreaLightSource "diffuse" "rgb L" [1 1 1] "bool twosided" true
       Shape "bilinearmesh" "point3 P" [-2 -2 3  0.3 -2 3  -2 2 3  0.3 2 3])";
   const Film without =
@@ -27,7 +27,7 @@ TEST(Options, PixelsWithoutJitter) {
 }
 
 TEST(Options, WavelengthsWithoutJitter) {
-  const std::string world = R"(Camera "orthographic" )" + kFilm + R"(WorldBegin
+  const std::string world = R"(Camera "orthographic" )" + kPlainFilm + R"(WorldBegin
       LightSource "infinite" "rgb L" [0.9 0.2 0.1])";
   const Film film = render(*scene_from_text(R"(Option "disablewavelengthjitter" true )" + world),
                            "path", {}, 1, 8);
@@ -40,7 +40,7 @@ TEST(Options, WavelengthsWithoutJitter) {
 TEST(Options, ForcedDiffuse) {
   const auto scene = scene_from_text(R"(Option "forcediffuse" true
       Camera "perspective" "float fov" 1 )" +
-                                     kFilm + R"(WorldBegin
+                                     kPlainFilm + R"(WorldBegin
       LightSource "infinite" "rgb L" [1 1 1]
       Material "dielectric" "float eta" 1.5
       Shape "bilinearmesh" "point3 P" [2 -2 3  -2 -2 3  2 2 3  -2 2 3])");

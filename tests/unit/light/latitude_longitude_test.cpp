@@ -7,7 +7,7 @@
 namespace nephroid::testing_light {
 namespace {
 
-constexpr int kWidth = 16, kHeight = 8;
+constexpr int kSkyWidth = 16, kSkyHeight = 8;
 
 Vec3f at_angles(double theta, double phi) {
   return to_float(
@@ -16,11 +16,11 @@ Vec3f at_angles(double theta, double phi) {
 
 /// Cosine of the polar angle at the upper edge of a row.
 double cos_at_rim(int row) {
-  return std::cos(double{kPi} * row / kHeight);
+  return std::cos(double{kPi} * row / kSkyHeight);
 }
 
 /// A sky that is smooth across seam and poles.
-float smooth(const Vec3f& w) {
+float smooth_sky(const Vec3f& w) {
   return 2 + w.x + 0.5f * w.y + 0.3f * w.z;
 }
 std::vector<float> smooth_map(int width, int height) {
@@ -30,34 +30,37 @@ std::vector<float> smooth_map(int width, int height) {
     for (int x = 0; x < width; ++x) {
       const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(width);
       const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(height);
-      rgb.insert(rgb.end(), 3,
-                 smooth(width == height ? map.direction({u, v}) : at_angles(v * kPi, u * 2 * kPi)));
+      rgb.insert(
+          rgb.end(), 3,
+          smooth_sky(width == height ? map.direction({u, v}) : at_angles(v * kPi, u * 2 * kPi)));
     }
   return rgb;
 }
 
 TEST(SphereMap, LatitudeLongitudeRunsFromZDownAndFromXOverY) {
-  const SphereMap map(kWidth, kHeight);
+  const SphereMap map(kSkyWidth, kSkyHeight);
   EXPECT_EQ(map.pixel({0, 0, 1}).y, 0);
-  EXPECT_EQ(map.pixel({0, 0, -1}).y, kHeight - 1);
+  EXPECT_EQ(map.pixel({0, 0, -1}).y, kSkyHeight - 1);
   EXPECT_EQ(map.pixel(at_angles(0.01, 2)), Vec2i(5, 0));
-  EXPECT_EQ(map.pixel(at_angles(kPi - 0.01, 2)), Vec2i(5, kHeight - 1));
+  EXPECT_EQ(map.pixel(at_angles(kPi - 0.01, 2)), Vec2i(5, kSkyHeight - 1));
   // Both sides of the seam at +x, and of the equator.
-  EXPECT_EQ(map.pixel(at_angles(kPi / 2 - 0.01, 0.01)), Vec2i(0, kHeight / 2 - 1));
-  EXPECT_EQ(map.pixel(at_angles(kPi / 2 + 0.01, -0.01)), Vec2i(kWidth - 1, kHeight / 2));
-  EXPECT_EQ(map.pixel(normalize(Vec3f(0.01f, 1, 0.01f))), Vec2i(kWidth / 4 - 1, kHeight / 2 - 1));
-  EXPECT_EQ(map.pixel(normalize(Vec3f(-1, -0.01f, 0.01f))), Vec2i(kWidth / 2, kHeight / 2 - 1));
+  EXPECT_EQ(map.pixel(at_angles(kPi / 2 - 0.01, 0.01)), Vec2i(0, kSkyHeight / 2 - 1));
+  EXPECT_EQ(map.pixel(at_angles(kPi / 2 + 0.01, -0.01)), Vec2i(kSkyWidth - 1, kSkyHeight / 2));
+  EXPECT_EQ(map.pixel(normalize(Vec3f(0.01f, 1, 0.01f))),
+            Vec2i(kSkyWidth / 4 - 1, kSkyHeight / 2 - 1));
+  EXPECT_EQ(map.pixel(normalize(Vec3f(-1, -0.01f, 0.01f))),
+            Vec2i(kSkyWidth / 2, kSkyHeight / 2 - 1));
 }
 
 TEST(SphereMap, PixelsCoverTheirSolidAnglesUniformly) {
-  const SphereMap map(kWidth, kHeight), octahedral(5, 5);
+  const SphereMap map(kSkyWidth, kSkyHeight), octahedral(5, 5);
   double sum = 0;
-  for (int y = 0; y < kHeight; ++y) {
-    const double share = (cos_at_rim(y) - cos_at_rim(y + 1)) / 2 * kHeight;
+  for (int y = 0; y < kSkyHeight; ++y) {
+    const double share = (cos_at_rim(y) - cos_at_rim(y + 1)) / 2 * kSkyHeight;
     EXPECT_NEAR(map.relative_solid_angle(y), share, 1e-6);
     sum += map.relative_solid_angle(y);
   }
-  EXPECT_NEAR(sum, kHeight, 1e-6);
+  EXPECT_NEAR(sum, kSkyHeight, 1e-6);
   EXPECT_EQ(octahedral.relative_solid_angle(3), 1.0f);
   TestRandom random(1);
   for (int i = 0; i < 20000; ++i) {
@@ -65,12 +68,12 @@ TEST(SphereMap, PixelsCoverTheirSolidAnglesUniformly) {
     const Vec3f w = map.direction(u);
     EXPECT_NEAR(length(w), 1.0f, 1e-6f);
     // Uniform in z within the row.
-    const int row = static_cast<int>(u.y * kHeight);
-    const Vec2f in_pixel(u.x * kWidth - std::floor(u.x * kWidth),
-                         u.y * kHeight - std::floor(u.y * kHeight));
+    const int row = static_cast<int>(u.y * kSkyHeight);
+    const Vec2f in_pixel(u.x * kSkyWidth - std::floor(u.x * kSkyWidth),
+                         u.y * kSkyHeight - std::floor(u.y * kSkyHeight));
     EXPECT_NEAR(w.z, cos_at_rim(row) + in_pixel.y * (cos_at_rim(row + 1) - cos_at_rim(row)), 1e-5);
     if (std::min({in_pixel.x, in_pixel.y, 1 - in_pixel.x, 1 - in_pixel.y}) < 1e-4f) continue;
-    EXPECT_EQ(map.pixel(w), Vec2i(static_cast<int>(u.x * kWidth), row));
+    EXPECT_EQ(map.pixel(w), Vec2i(static_cast<int>(u.x * kSkyWidth), row));
   }
 }
 
@@ -82,19 +85,19 @@ TEST(SphereMap, BilinearGoesOnOverSeamAndPoles) {
   for (int i = 0; i < 4000; ++i) {
     const double theta = random.next() * (i % 2 ? 0.06 : kPi), phi = random.next() * 2 * kPi;
     const Vec3f w = at_angles(i % 4 == 1 ? kPi - theta : theta, i % 3 ? phi : 0.05 * (phi - kPi));
-    EXPECT_NEAR(map.bilinear(image, w).r, smooth(w), 1.5e-3f) << w;
+    EXPECT_NEAR(map.bilinear(image, w).r, smooth_sky(w), 1.5e-3f) << w;
   }
 }
 
 class LatitudeLongitudeLight : public ::testing::Test {
  protected:
   void SetUp() override {
-    for (int i = 0; i < kWidth * kHeight; ++i) values.push_back(static_cast<float>(i % 7));
-    values[1 * kWidth + 4] = 200;
-    values[7 * kWidth + 15] = 300;
+    for (int i = 0; i < kSkyWidth * kSkyHeight; ++i) values.push_back(static_cast<float>(i % 7));
+    values[1 * kSkyWidth + 4] = 200;
+    values[7 * kSkyWidth + 15] = 300;
     std::vector<float> rgb;
     for (const float v : values) rgb.insert(rgb.end(), {v, v, v});
-    write_square(scratch.file("sky.exr"), kWidth, rgb);
+    write_square(scratch.file("sky.exr"), kSkyWidth, rgb);
   }
   LightPtr make(const std::string& before = "", const std::string& parameters = "",
                 const SceneSphere& sphere = {}, const std::string& file = "sky.exr") const {
@@ -103,17 +106,17 @@ class LatitudeLongitudeLight : public ::testing::Test {
         sphere, scratch.path().string());
   }
   static int pixel_of(const Vec3f& w) {
-    const Vec2i pixel = SphereMap(kWidth, kHeight).pixel(w);
-    return pixel.y * kWidth + pixel.x;
+    const Vec2i pixel = SphereMap(kSkyWidth, kSkyHeight).pixel(w);
+    return pixel.y * kSkyWidth + pixel.x;
   }
   static double solid_angle(int pixel) {
-    const int y = pixel / kWidth;
-    return 2 * kPi / kWidth * (cos_at_rim(y) - cos_at_rim(y + 1));
+    const int y = pixel / kSkyWidth;
+    return 2 * kPi / kSkyWidth * (cos_at_rim(y) - cos_at_rim(y + 1));
   }
   /// Integral of radiance over the sphere, in grey values.
   double total() const {
     double sum = 0;
-    for (int i = 0; i < kWidth * kHeight; ++i) sum += values[i] * solid_angle(i);
+    for (int i = 0; i < kSkyWidth * kSkyHeight; ++i) sum += values[i] * solid_angle(i);
     return sum;
   }
   /// Radiance of a grey pixel of value 1 at the first wavelength.
@@ -129,7 +132,7 @@ TEST_F(LatitudeLongitudeLight, DirectionsFollowWhatIsAboveTheAverage) {
   const LightPtr light = make();
   std::vector<double> observed(values.size()), expected(values.size());
   double sum = 0;
-  for (int i = 0; i < kWidth * kHeight; ++i) {
+  for (int i = 0; i < kSkyWidth * kSkyHeight; ++i) {
     expected[i] = std::max(0.0, values[i] - total() / (4 * kPi)) * solid_angle(i);
     sum += expected[i];
   }
@@ -194,12 +197,12 @@ TEST_F(LatitudeLongitudeLight, IrradianceIsThatOfThePixels) {
   const Vec3f n = normalize(Vec3f(0.2f, -0.3f, 0.9f));
   double expected = 0;
   constexpr int kSub = 24;
-  for (int y = 0; y < kHeight * kSub; ++y)
-    for (int x = 0; x < kWidth * kSub; ++x) {
-      const double theta = kPi * (y + 0.5) / (kHeight * kSub);
-      const Vec3f w = at_angles(theta, 2 * kPi * (x + 0.5) / (kWidth * kSub));
-      expected += values[y / kSub * kWidth + x / kSub] * std::max(0.0f, dot(n, w)) *
-                  std::sin(theta) * (kPi / (kHeight * kSub)) * (2 * kPi / (kWidth * kSub));
+  for (int y = 0; y < kSkyHeight * kSub; ++y)
+    for (int x = 0; x < kSkyWidth * kSub; ++x) {
+      const double theta = kPi * (y + 0.5) / (kSkyHeight * kSub);
+      const Vec3f w = at_angles(theta, 2 * kPi * (x + 0.5) / (kSkyWidth * kSub));
+      expected += values[y / kSub * kSkyWidth + x / kSub] * std::max(0.0f, dot(n, w)) *
+                  std::sin(theta) * (kPi / (kSkyHeight * kSub)) * (2 * kPi / (kSkyWidth * kSub));
     }
   expected *= unit();
   const Mean got = irradiance(*light, {0, 0, 0}, n, 100000);

@@ -175,7 +175,7 @@ TEST(Bump, ARampTiltsTheNormalByItsSlope) {
   SceneDescription description;
   Diagnostics diagnostics;
   // Two interpolated texels: between their centres at u = 1/4 and 3/4 the slope is 1/2.
-  const auto file = std::filesystem::path(testing::TempDir()) / "nephroid_bump_test.exr";
+  const auto file = std::filesystem::path(::testing::TempDir()) / "nephroid_bump_test.exr";
   const float texels[2] = {0.0f, 0.25f};
   const auto out = OIIO::ImageOutput::create(file.string());
   ASSERT_TRUE(out && out->open(file.string(), OIIO::ImageSpec(2, 1, 1, OIIO::TypeDesc::FLOAT)));

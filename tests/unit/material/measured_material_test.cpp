@@ -29,7 +29,7 @@ GgxSurface small_surface() {
 class BsdfFile {
  public:
   explicit BsdfFile(const std::string& bytes)
-      : path_(std::filesystem::path(testing::TempDir()) / "nephroid_measured_test.bsdf") {
+      : path_(std::filesystem::path(::testing::TempDir()) / "nephroid_measured_test.bsdf") {
     std::ofstream(path_, std::ios::binary) << bytes;
   }
   ~BsdfFile() { std::filesystem::remove(path_); }
@@ -65,7 +65,7 @@ std::vector<MaterialPtr> make(std::vector<MaterialDescription> list) {
 }
 
 template <class Action>
-std::string error_of(const Action& action) {
+std::string measured_error(const Action& action) {
   try {
     action();
   } catch (const SceneError& e) {
@@ -75,7 +75,7 @@ std::string error_of(const Action& action) {
 }
 
 std::string error_in(const std::string& bytes) {
-  return error_of([&] { measured_brdf_from(TensorFile(bytes, "f.bsdf", {})); });
+  return measured_error([&] { measured_brdf_from(TensorFile(bytes, "f.bsdf", {})); });
 }
 
 TEST(MeasuredMaterial, TheFileIsReadAndRendersAsItsTablesSay) {
@@ -111,13 +111,13 @@ TEST(MeasuredMaterial, MaterialsOfTheSameFileShareIt) {
 }
 
 TEST(MeasuredMaterial, MistakesAreLocated) {
-  EXPECT_EQ(error_of([] { make({measured({})}); }),
+  EXPECT_EQ(measured_error([] { make({measured({})}); }),
             "scene.pbrt:7:3: material \"measured\" has no \"string filename\", expected a .bsdf "
             "file");
-  EXPECT_EQ(error_of([] { make({measured({"/nowhere/absent.bsdf"})}); }),
+  EXPECT_EQ(measured_error([] { make({measured({"/nowhere/absent.bsdf"})}); }),
             "scene.pbrt:8:5: cannot read \"/nowhere/absent.bsdf\": No such file or directory");
   const BsdfFile bad("not a tensor file");
-  EXPECT_EQ(error_of([&] { make({measured({bad.path()})}); }),
+  EXPECT_EQ(measured_error([&] { make({measured({bad.path()})}); }),
             "scene.pbrt:8:5: cannot use \"" + bad.path() +
                 "\": it does not start with \"tensor_file\", expected a tensor file");
 }

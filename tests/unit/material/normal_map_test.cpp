@@ -10,7 +10,7 @@ namespace nephroid {
 namespace {
 
 std::string write_image(const std::vector<float>& pixels, int width, int height, int channels) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "nephroid_normal_map_test.exr";
+  const auto path = std::filesystem::path(::testing::TempDir()) / "nephroid_normal_map_test.exr";
   const auto out = OIIO::ImageOutput::create(path.string());
   EXPECT_TRUE(out);
   EXPECT_TRUE(

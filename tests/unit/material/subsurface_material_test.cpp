@@ -10,11 +10,11 @@
 namespace nephroid {
 namespace {
 
-struct Made {
+struct MadeSubsurface {
   Diagnostics diagnostics;
   MaterialPtr material;
 
-  explicit Made(const std::string& parameters) {
+  explicit MadeSubsurface(const std::string& parameters) {
     const SceneDescription d = parse_pbrt_string(
         "WorldBegin\nMaterial \"subsurface\" " + parameters + "\nShape \"sphere\"", "t.pbrt", ".",
         diagnostics);
@@ -23,7 +23,7 @@ struct Made {
   }
 };
 
-SurfaceInteraction flat_point() {
+SurfaceInteraction plain_point() {
   SurfaceInteraction s;
   s.p = Vec3f(0.3f, 0.4f, 0.0f);
   s.ng = Vec3f(0, 0, 1);
@@ -38,10 +38,10 @@ SampledWavelengths test_wavelengths() {
 }
 
 /// Sp at distance r.
-SampledSpectrum profile_of(const Made& made, float r,
+SampledSpectrum profile_of(const MadeSubsurface& made, float r,
                            const SampledWavelengths& lambda = test_wavelengths()) {
   BsdfArena arena;
-  const SurfaceInteraction point = flat_point();
+  const SurfaceInteraction point = plain_point();
   const Bssrdf* below = made.material->make_bssrdf(point, lambda, arena);
   EXPECT_NE(below, nullptr);
   return below ? below->sp(point.p + Vec3f(r, 0, 0)) : SampledSpectrum();
@@ -49,7 +49,8 @@ SampledSpectrum profile_of(const Made& made, float r,
 
 constexpr float kR = 0.4f;
 
-void expect_medium(const Made& made, const BssrdfTable& table, float sigma_a, float sigma_s) {
+void expect_medium(const MadeSubsurface& made, const BssrdfTable& table, float sigma_a,
+                   float sigma_s) {
   EXPECT_TRUE(made.diagnostics.warnings().empty());
   const TabulatedBssrdf expected({0, 0, 0}, {0, 0, 1}, SampledSpectrum(sigma_a),
                                  SampledSpectrum(sigma_s), &table, kAllWavelengths);
@@ -59,11 +60,12 @@ void expect_medium(const Made& made, const BssrdfTable& table, float sigma_a, fl
 }
 
 TEST(SubsurfaceMaterial, WithoutParametersItIsWholeMilk) {
-  const SampledSpectrum milk = profile_of(Made(""), kR);
+  const SampledSpectrum milk = profile_of(MadeSubsurface(""), kR);
   EXPECT_LT((milk * -1.0f).max_component(), 0.0f);
-  const SampledSpectrum named = profile_of(Made("\"string name\" \"Wholemilk\""), kR);
+  const SampledSpectrum named = profile_of(MadeSubsurface("\"string name\" \"Wholemilk\""), kR);
   const SampledSpectrum written = profile_of(
-      Made("\"rgb sigma_a\" [ .0011 .0024 .014 ] \"rgb sigma_s\" [ 2.55 3.21 3.77 ]"), kR);
+      MadeSubsurface("\"rgb sigma_a\" [ .0011 .0024 .014 ] \"rgb sigma_s\" [ 2.55 3.21 3.77 ]"),
+      kR);
   for (int i = 0; i < kSpectrumSamples; ++i) {
     EXPECT_NEAR(named[i], milk[i], 1e-5f * milk[i]);
     EXPECT_NEAR(written[i], milk[i], 1e-5f * milk[i]);
@@ -71,25 +73,27 @@ TEST(SubsurfaceMaterial, WithoutParametersItIsWholeMilk) {
 }
 
 TEST(SubsurfaceMaterial, CoefficientsAreScaled) {
-  expect_medium(Made("\"spectrum sigma_a\" [ 200 .25 900 .25 ] \"spectrum sigma_s\" [ 200 .75 900 "
+  expect_medium(
+      MadeSubsurface("\"spectrum sigma_a\" [ 200 .25 900 .25 ] \"spectrum sigma_s\" [ 200 .75 900 "
                      ".75 ] \"float scale\" 4 \"float g\" 0.2 \"float eta\" 1.5"),
-                BssrdfTable(0.2f, 1.5f), 1.0f, 3.0f);
+      BssrdfTable(0.2f, 1.5f), 1.0f, 3.0f);
 }
 
 TEST(SubsurfaceMaterial, ReflectanceAndFreePathAreInverted) {
   const BssrdfTable table(0.0f, 1.33f);
   const float albedo = table.invert_effective_albedo(0.6f);
   EXPECT_NEAR(table.effective_albedo(table.albedo_weights(albedo)), 0.6f, 1e-4f);
-  expect_medium(
-      Made("\"spectrum reflectance\" [ 200 .6 900 .6 ] \"spectrum mfp\" [ 200 .25 900 .25 "
-           "] \"float scale\" 2"),
-      table, 2.0f * (1.0f - albedo), 2.0f * albedo);
+  expect_medium(MadeSubsurface(
+                    "\"spectrum reflectance\" [ 200 .6 900 .6 ] \"spectrum mfp\" [ 200 .25 900 .25 "
+                    "] \"float scale\" 2"),
+                table, 2.0f * (1.0f - albedo), 2.0f * albedo);
   // The default free path is 1.
-  expect_medium(Made("\"spectrum reflectance\" [ 200 .6 900 .6 ]"), table, 1.0f - albedo, albedo);
+  expect_medium(MadeSubsurface("\"spectrum reflectance\" [ 200 .6 900 .6 ]"), table, 1.0f - albedo,
+                albedo);
 }
 
 TEST(SubsurfaceMaterial, DroppedWavelengthsAreLeftOut) {
-  const Made milk("");
+  const MadeSubsurface milk("");
   for (const int number : {0, 5}) {
     SampledWavelengths hero = test_wavelengths().with_hero(number);
     hero.terminate_secondary();
@@ -101,14 +105,14 @@ TEST(SubsurfaceMaterial, DroppedWavelengthsAreLeftOut) {
 
 TEST(SubsurfaceMaterial, BoundaryHasTheRoughnessOfTheFormat) {
   const ClassMask smooth = ClassMask::kDiffuse | ClassMask::kSpecular;
-  EXPECT_EQ(Made("").material->possible_classes(), smooth);
-  EXPECT_EQ(
-      Made("\"float roughness\" 0.03 \"bool remaproughness\" false").material->possible_classes(),
-      smooth);
-  EXPECT_EQ(
-      Made("\"float roughness\" 0.04 \"bool remaproughness\" false").material->possible_classes(),
-      ClassMask::kAll);
-  const Made rough("\"float roughness\" 0.04");
+  EXPECT_EQ(MadeSubsurface("").material->possible_classes(), smooth);
+  EXPECT_EQ(MadeSubsurface("\"float roughness\" 0.03 \"bool remaproughness\" false")
+                .material->possible_classes(),
+            smooth);
+  EXPECT_EQ(MadeSubsurface("\"float roughness\" 0.04 \"bool remaproughness\" false")
+                .material->possible_classes(),
+            ClassMask::kAll);
+  const MadeSubsurface rough("\"float roughness\" 0.04");
   EXPECT_EQ(rough.material->possible_classes(), ClassMask::kRough);
   const DielectricBsdf glass({1.33f, TrowbridgeReitz(0.2f, 0.2f)}, 0.05f);
   SampledWavelengths lambda = test_wavelengths();
@@ -118,14 +122,14 @@ TEST(SubsurfaceMaterial, BoundaryHasTheRoughnessOfTheFormat) {
     return b.eval(wo, wi, TransportMode::kRadiance, EventClass::kGlossy, ClassMask::kAll).f[0];
   };
   EXPECT_GT(value(glass), 0.0f);
-  EXPECT_FLOAT_EQ(value(*rough.material->make_bsdf(flat_point(), lambda, 0.05f, arena)),
+  EXPECT_FLOAT_EQ(value(*rough.material->make_bsdf(plain_point(), lambda, 0.05f, arena)),
                   value(glass));
 }
 
 TEST(SubsurfaceMaterial, MistakesAreLocated) {
   const auto expect_error = [](const std::string& parameters, const std::string& message) {
     try {
-      const Made made(parameters);
+      const MadeSubsurface made(parameters);
       FAIL() << parameters;
     } catch (const SceneError& e) {
       EXPECT_NE(std::string(e.what()).find("t.pbrt:2:23: "), std::string::npos) << e.what();
@@ -141,7 +145,7 @@ TEST(SubsurfaceMaterial, MistakesAreLocated) {
 
 TEST(SubsurfaceMaterial, IdleParametersAreTold) {
   const auto warning = [](const std::string& parameters) {
-    const auto warnings = Made(parameters).diagnostics.warnings();
+    const auto warnings = MadeSubsurface(parameters).diagnostics.warnings();
     return warnings.size() == 1 ? warnings[0].message : "";
   };
   EXPECT_NE(warning("\"string name\" \"Cream\" \"float g\" 0.5").find("\"g\" is ignored"),

@@ -27,7 +27,7 @@ MediumPtr read(const std::string& path, const std::string& more = "",
                const std::string& transform = "") {
   return medium_of("nanovdb", kGrey + "\"string filename\" \"" + path + "\" " + more, transform);
 }
-std::string message_of(const std::string& path, const std::string& more = "") {
+std::string file_message(const std::string& path, const std::string& more = "") {
   try {
     read(path, more);
   } catch (const SceneError& e) {
@@ -129,29 +129,29 @@ TEST(NanoVdb, SaysWhatIsWrongWithAFile) {
         << "message: " << found << "\nexpected: " << what;
     EXPECT_NE(found.find("t.pbrt:2:"), std::string::npos) << found;
   };
-  expect(message_of(scratch.file("none.nvdb")), "none.nvdb");
+  expect(file_message(scratch.file("none.nvdb")), "none.nvdb");
   write_bytes(path, "");
-  expect(message_of(path), "is empty");
+  expect(file_message(path), "is empty");
   write_bytes(path, "a text that is longer than a header is");
-  expect(message_of(path), "does not begin with the magic number of NanoVDB");
+  expect(file_message(path), "does not begin with the magic number of NanoVDB");
   write_nanovdb(path, {density_box()});
-  expect(message_of(path, "\"string gridname\" \"smoke\""), "has no grid \"smoke\"");
+  expect(file_message(path, "\"string gridname\" \"smoke\""), "has no grid \"smoke\"");
   std::string version = bytes_of(path);
   version[11] = 0x03;
   write_bytes(path, version);
-  expect(message_of(path), "of the format, expected 32");
+  expect(file_message(path), "of the format, expected 32");
   VoxelBox box = density_box();
   box.doubles = true;
   write_nanovdb(path, {box});
-  expect(message_of(path), "has values of another type, expected float");
+  expect(file_message(path), "has values of another type, expected float");
   box = density_box();
   box.fog = false;
   write_nanovdb(path, {box});
-  expect(message_of(path), "is of another class, expected a fog volume");
+  expect(file_message(path), "is of another class, expected a fog volume");
   box = density_box();
   box.value = [](int x, int, int) { return x == 3 ? kInfinity : 1.0f; };
   write_nanovdb(path, {box});
-  expect(message_of(path), "infinite or not a number");
+  expect(file_message(path), "infinite or not a number");
 }
 
 TEST(NanoVdb, BrokenFilesAreErrorsAndNeverCrashes) {

@@ -16,17 +16,17 @@ constexpr char kFloor[] =
     "Material \"diffuse\" Shape \"bilinearmesh\" \"point3 P\" [-2 0 -2  2 0 -2  -2 0 2  2 0 2]\n";
 constexpr float kRadius = 0.1f;
 
-struct Mean {
+struct MeanCover {
   double inverse_cover = 0, rays = 0;
 };
 
 // At the surface that lies below a point.
-Mean mean_below(const std::string& world, const Vec3f& point) {
+MeanCover mean_below(const std::string& world, const Vec3f& point) {
   const auto scene = testing_support::scene_from_text("WorldBegin " + world);
   SurfaceInteraction hit;
   EXPECT_TRUE(scene->intersect({point, Vec3f(0, -1, 0)}, hit));
   constexpr uint32_t kProbes = 1 << 14;
-  Mean mean;
+  MeanCover mean;
   for (uint32_t i = 0; i < kProbes; ++i) {
     const DiscProbes probes = probe_disc(*scene, hit, kRadius, PathSampler(PaddedPoint{i}, 7));
     mean.inverse_cover += probes.inverse_cover / kProbes;
@@ -35,12 +35,12 @@ Mean mean_below(const std::string& world, const Vec3f& point) {
   return mean;
 }
 
-Mean mean_at(const std::string& world, float x, float z) {
+MeanCover mean_at(const std::string& world, float x, float z) {
   return mean_below(world, Vec3f(x, 5, z));
 }
 
 TEST(DiscArea, AWholeDiscTakesOneRay) {
-  const Mean mean = mean_at(kFloor, 0.3f, 0.2f);
+  const MeanCover mean = mean_at(kFloor, 0.3f, 0.2f);
   EXPECT_EQ(mean.inverse_cover, 1.0);
   EXPECT_EQ(mean.rays, 1.0);
 }

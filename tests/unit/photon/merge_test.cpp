@@ -11,7 +11,7 @@
 namespace nephroid {
 namespace {
 
-constexpr float kReflectance = 0.6f, kTransmittance = 0.3f, kRadius = 0.1f;
+constexpr float kReflectance = 0.6f, kTransmittance = 0.3f, kMergeRadius = 0.1f;
 constexpr int kAnyDepth = 100;
 
 // Rounded as in a photon.
@@ -65,7 +65,7 @@ struct VisiblePoint {
     const MergePoint at{vertex,     owned.routes->start(), ClassMask::kRough,
                         eye_events, SampledSpectrum(1.0f), eye_left};
     Merged merged;
-    merged.found = merge_photons(PhotonGrid(photons), owned, at, max_depth, kRadius, sums);
+    merged.found = merge_photons(PhotonGrid(photons), owned, at, max_depth, kMergeRadius, sums);
     for (const SampledSpectrum& sum : sums.sums()) merged.reflected += sum;
     return merged;
   }

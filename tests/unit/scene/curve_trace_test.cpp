@@ -12,7 +12,7 @@
 namespace nephroid {
 namespace {
 
-struct Numbers {
+struct CurveNumbers {
   uint64_t state;
   float operator()() {
     return bits_to_unit_float(
@@ -34,7 +34,7 @@ struct Built {
   }
 };
 
-std::string error_of(const std::string& world) {
+std::string curve_error(const std::string& world) {
   try {
     Built built(world);
   } catch (const SceneError& e) {
@@ -45,7 +45,7 @@ std::string error_of(const std::string& world) {
 
 /// Random curves in the unit box, of every basis and degree.
 std::string tangle(const std::string& type, int count) {
-  Numbers u{7};
+  CurveNumbers u{7};
   std::string text;
   const bool ribbon = type == "ribbon";
   for (int i = 0; i < count; ++i) {
@@ -99,7 +99,7 @@ TEST(CurveTracing, AgreesWithRecursiveSubdivision) {
     const Built built(tangle(type, 30));
     const Scene& scene = *built.scene;
     EXPECT_EQ(scene.shape_count, 1u);
-    Numbers u{31};
+    CurveNumbers u{31};
     int hits = 0, missed = 0, elsewhere = 0, shadows = 0;
     constexpr int kRays = 3000;
     for (int i = 0; i < kRays; ++i) {
@@ -146,7 +146,7 @@ TEST(CurveTracing, CurvesAlikeShareAGeometryAndNothingElse) {
   }
   const Built separate(apart);
   EXPECT_EQ(separate.scene->top.records.size(), 24u);
-  Numbers u{5};
+  CurveNumbers u{5};
   int hits = 0;
   for (int i = 0; i < 2000; ++i) {
     Ray ray;
@@ -207,7 +207,7 @@ TEST(CurveTracing, CurvesMove) {
 TEST(CurveTracing, WrongDirectivesGetLocatedErrors) {
   const std::string p4 = "\"point3 P\" [0 0 0 1 0 0 2 0 0 3 1 0] ";
   const auto expect_error = [](const std::string& directive, const std::string& text) {
-    const std::string error = error_of(directive);
+    const std::string error = curve_error(directive);
     EXPECT_NE(error.find("test.pbrt:2:"), std::string::npos) << error;
     EXPECT_NE(error.find(text), std::string::npos) << error;
   };

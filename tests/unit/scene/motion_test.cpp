@@ -16,7 +16,7 @@
 namespace nephroid {
 namespace {
 
-struct Numbers {
+struct MotionNumbers {
   uint64_t state;
   float operator()() {
     return bits_to_unit_float(
@@ -62,7 +62,7 @@ Mat44d moved(double x, double y, double z) {
   return translation_matrix({x, y, z});
 }
 
-constexpr char kSphere[] = "Shape \"sphere\" \"float radius\" 1 \"float zmax\" 0.6\n";
+constexpr char kMovingSphere[] = "Shape \"sphere\" \"float radius\" 1 \"float zmax\" 0.6\n";
 constexpr char kMesh[] =
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2  0 3 1  0 2 3  1 3 2]\n"
     "  \"point3 P\" [1 1 1  1 -1 -1  -1 1 -1  -1 -1 1]\n"
@@ -74,7 +74,7 @@ constexpr char kPatch[] =
 /// rounding.
 template <class Still>
 void expect_same_pictures(const Scene& scene, const Still& still, float size) {
-  Numbers u{77};
+  MotionNumbers u{77};
   int met = 0, different = 0;
   for (int k = 0; k <= 16; ++k) {
     const float time = static_cast<float>(k) / 16.0f;
@@ -124,7 +124,7 @@ const Motion kMotions[] = {
 };
 
 TEST(MotionBlur, MovingShapesAreWhereTheyBelong) {
-  for (const char* shape : {kSphere, kMesh, kPatch})
+  for (const char* shape : {kMovingSphere, kMesh, kPatch})
     for (const Motion& m : kMotions) {
       const auto scene = scene_of(moving(m.start, m.end) + shape);
       const MotionTransform motion(m.start, m.end);
@@ -137,7 +137,7 @@ TEST(MotionBlur, MovingShapesAreWhereTheyBelong) {
 // origin if requested.
 TEST(MotionBlur, MovingInstancesTurnAboutTheOriginOfTheRenderingSpace) {
   const std::string object =
-      std::string("ObjectBegin \"o\" Translate 0.2 0 0 ") + kSphere + kMesh + "ObjectEnd\n";
+      std::string("ObjectBegin \"o\" Translate 0.2 0 0 ") + kMovingSphere + kMesh + "ObjectEnd\n";
   const std::string camera =
       "LookAt 1 2 -3  0 0 0  0 1 0 ActiveTransform EndTime Translate 0.5 0 0\n"
       "Camera \"perspective\"\n";
@@ -164,12 +164,12 @@ TEST(MotionBlur, MovingShapesInMovingInstances) {
   const Motion outer = {turned(-40, {0, 1, 0}), turned(90, {0, 1, 1}) * moved(0, 0.5, -1)};
   for (const bool outer_moves : {true, false}) {
     const auto object = [&](const std::string& transform) {
-      return std::string("ObjectBegin \"o\" ") + kMesh + "AttributeBegin " + transform + kSphere +
-             "AttributeEnd Translate 0 0 2 " + kPatch + "ObjectEnd\n";
+      return std::string("ObjectBegin \"o\" ") + kMesh + "AttributeBegin " + transform +
+             kMovingSphere + "AttributeEnd Translate 0 0 2 " + kPatch + "ObjectEnd\n";
     };
     const Mat44d end = outer_moves ? outer.end : outer.start;
     const auto scene = scene_of(object(moving(inner.start, inner.end)) + "Translate 0 0.25 0 " +
-                                kSphere + moving(outer.start, end) +
+                                kMovingSphere + moving(outer.start, end) +
                                 "ObjectInstance \"o\" Translate 3 0 0 ObjectInstance \"o\"");
     EXPECT_EQ(scene->instance_count, 2u);
     EXPECT_EQ(scene->groups.size(), 1u);
@@ -181,7 +181,7 @@ TEST(MotionBlur, MovingShapesInMovingInstances) {
         *scene,
         [&](float time) {
           return scene_of(object(text_of(inside.at(time).m)) +
-                          "AttributeBegin Translate 0 0.25 0 " + kSphere + "AttributeEnd " +
+                          "AttributeBegin Translate 0 0.25 0 " + kMovingSphere + "AttributeEnd " +
                           "AttributeBegin " + text_of(first.at(time).m) +
                           "ObjectInstance \"o\" AttributeEnd " + text_of(second.at(time).m) +
                           "ObjectInstance \"o\"");
@@ -259,7 +259,7 @@ TEST(MotionBlur, AWheelCoversARayByTheAnglesOfItsSpokes) {
 // breaks.
 TEST(MotionBlur, AMotionThroughAFlatPictureIsTraced) {
   const auto scene = scene_of(moving(Mat44d(), scale_matrix({-1, 1, 1})) + kMesh);
-  Numbers u{5};
+  MotionNumbers u{5};
   for (int i = 0; i < 2000; ++i) {
     Ray ray;
     ray.o = u.in_cube(3);
@@ -286,7 +286,7 @@ TEST(MotionBlur, ManyThreadsSeeTheSameBits) {
     parallel_chunks(static_cast<int64_t>(bits.size()), 64,
                     [&](int64_t, int64_t begin, int64_t end) {
                       for (int64_t i = begin; i < end; ++i) {
-                        Numbers u{static_cast<uint64_t>(i) * 1000};
+                        MotionNumbers u{static_cast<uint64_t>(i) * 1000};
                         Ray ray;
                         ray.o = u.in_cube(8);
                         ray.d = u.in_cube(3) - ray.o;
@@ -322,7 +322,7 @@ TEST(MotionBlur, RaysNeverMeetTheMovingSurfaceTheyLeave) {
                                   moving(Mat44d(), turned(80, {0, 1, 0}) * moved(0, 1, 0)) + shape +
                                   "ObjectEnd " + motion + "ObjectInstance \"o\""
                             : motion + shape);
-        Numbers u{99};
+        MotionNumbers u{99};
         int landed = 0, again = 0;
         for (int i = 0; i < 40000; ++i) {
           Ray ray;
@@ -352,9 +352,9 @@ TEST(MotionBlur, RaysNeverMeetTheMovingSurfaceTheyLeave) {
 
 TEST(MotionBlur, WhatCannotMoveSaysSo) {
   Diagnostics diagnostics;
-  const auto scene =
-      scene_of("AreaLightSource \"diffuse\"\n" + moving(moved(5, 0, 0), moved(9, 0, 0)) + kSphere,
-               diagnostics);
+  const auto scene = scene_of(
+      "AreaLightSource \"diffuse\"\n" + moving(moved(5, 0, 0), moved(9, 0, 0)) + kMovingSphere,
+      diagnostics);
   ASSERT_EQ(scene->lights.size(), 1u);
   EXPECT_TRUE(scene->top.instances.empty());
   int told = 0;
@@ -363,8 +363,8 @@ TEST(MotionBlur, WhatCannotMoveSaysSo) {
   EXPECT_EQ(told, 1);
   EXPECT_NEAR(scene->top.accelerator->bounds().min.x, 4, 1e-4);
 
-  EXPECT_THROW(scene_of(moving(Mat44d(), moved(1e18, 0, 0)) + kSphere), SceneError);
-  EXPECT_THROW(scene_of(kSphere, "Option \"string rendercoordsys\" \"moon\"\n"), SceneError);
+  EXPECT_THROW(scene_of(moving(Mat44d(), moved(1e18, 0, 0)) + kMovingSphere), SceneError);
+  EXPECT_THROW(scene_of(kMovingSphere, "Option \"string rendercoordsys\" \"moon\"\n"), SceneError);
 }
 
 }  // namespace

@@ -10,13 +10,13 @@
 namespace nephroid {
 namespace {
 
-std::unique_ptr<Scene> scene_of(const std::string& world) {
+std::unique_ptr<Scene> scene_with(const std::string& world) {
   Diagnostics diagnostics;
   return build_scene(parse_pbrt_string("WorldBegin\n" + world, "t.pbrt", ".", diagnostics), {},
                      diagnostics);
 }
 
-struct Numbers {
+struct OrientationNumbers {
   uint64_t state;
   float operator()() {
     return bits_to_unit_float(
@@ -109,7 +109,7 @@ std::vector<std::string> placed(const std::string& shape, const std::string& map
               "\nAttributeEnd\n"};
 }
 
-Ray random_ray(Numbers& u) {
+Ray random_ray(OrientationNumbers& u) {
   Ray ray;
   ray.o = square_to_sphere(u.pair()) * 6.0f;
   ray.d = square_to_sphere(u.pair()) * 0.5f - ray.o;
@@ -127,8 +127,8 @@ TEST(Orientation, OfAShapeIsAwayFromItUnlessReversed) {
     if (!c.outwards) continue;
     SCOPED_TRACE(c.name);
     for (const bool reverse : {false, true}) {
-      const auto scene = scene_of((reverse ? "ReverseOrientation\n" : "") + c.shape);
-      Numbers u{7};
+      const auto scene = scene_with((reverse ? "ReverseOrientation\n" : "") + c.shape);
+      OrientationNumbers u{7};
       int hits = 0;
       for (int i = 0; i < 500; ++i) {
         SurfaceInteraction hit;
@@ -147,11 +147,11 @@ TEST(Orientation, IsMappedAsNormalsAre) {
     for (const Map& map : mirrors()) {
       if (c.needs_angles && !map.keeps_angles) continue;
       for (const std::string reverse : {"", "ReverseOrientation\n"}) {
-        const auto plain = scene_of(reverse + c.shape);
+        const auto plain = scene_with(reverse + c.shape);
         for (const std::string& world : placed(reverse + c.shape, map.text)) {
           SCOPED_TRACE(world);
-          const auto scene = scene_of(world);
-          Numbers u{11};
+          const auto scene = scene_with(world);
+          OrientationNumbers u{11};
           int hits = 0, differing = 0;
           for (int i = 0; i < 300; ++i) {
             const Ray ray = random_ray(u);
@@ -187,9 +187,9 @@ TEST(Orientation, MirroredLampsShineOutwards) {
         const std::string world = "AreaLightSource \"diffuse\"\n" + map.text +
                                   (reverse ? "ReverseOrientation\n" : "") + c.shape;
         SCOPED_TRACE(world);
-        const auto scene = scene_of(world);
+        const auto scene = scene_with(world);
         const Vec3f middle = map.transform.point({0, 0, 0});
-        Numbers u{13};
+        OrientationNumbers u{13};
         for (int i = 0; i < 200; ++i) {
           // Paths that hit the lamp, next-event estimation and photons agree on the emitting side.
           const Ray ray = mapped(random_ray(u), map.transform);

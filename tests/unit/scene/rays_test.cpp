@@ -10,7 +10,7 @@
 namespace nephroid {
 namespace {
 
-struct Numbers {
+struct RayNumbers {
   uint64_t state;
   float operator()() {
     return bits_to_unit_float(
@@ -24,7 +24,7 @@ void expect_no_self_hits(const std::string& world, float size, float height) {
   const SceneDescription d =
       parse_pbrt_string("WorldBegin\n" + world, "test.pbrt", ".", diagnostics);
   const auto scene = build_scene(d, {}, diagnostics);
-  Numbers u{12345};
+  RayNumbers u{12345};
   int landed = 0, again = 0;
   for (int i = 0; i < 20000; ++i) {
     Ray ray;

@@ -9,20 +9,20 @@
 namespace nephroid {
 namespace {
 
-struct Built {
+struct BuiltWithOptions {
   std::unique_ptr<Scene> scene;
   std::string warnings;  ///< warnings with a location
 };
-Built build(const std::string& text) {
+BuiltWithOptions build(const std::string& text) {
   Diagnostics diagnostics;
   const SceneDescription d =
       parse_pbrt_string(text + "\nWorldBegin", "test.pbrt", ".", diagnostics);
-  Built built{build_scene(d, {}, diagnostics), {}};
+  BuiltWithOptions built{build_scene(d, {}, diagnostics), {}};
   for (const Warning& w : diagnostics.warnings())
     if (w.where.line > 0) built.warnings += located(w.where, w.message) + "\n";
   return built;
 }
-std::string error_of(const std::string& text) {
+std::string option_error(const std::string& text) {
   try {
     build(text);
   } catch (const SceneError& error) {
@@ -50,7 +50,7 @@ TEST(SceneSize, ScenesTooSmallForSinglePrecisionAreRefused) {
 }
 
 TEST(SceneOptions, Defaults) {
-  const Built b = build("");
+  const BuiltWithOptions b = build("");
   EXPECT_TRUE(b.scene->options.pixel_jitter && b.scene->options.wavelength_jitter);
   EXPECT_FALSE(b.scene->options.force_diffuse);
   EXPECT_EQ(b.scene->scene_seed, 0u);
@@ -59,7 +59,7 @@ TEST(SceneOptions, Defaults) {
 }
 
 TEST(SceneOptions, ThoseThatChangePictures) {
-  const Built b = build(
+  const BuiltWithOptions b = build(
       "Option \"disablepixeljitter\" true Option \"disablewavelengthjitter\" true "
       "Option \"forcediffuse\" true Option \"seed\" 7 Option \"rendercoordsys\" \"camera\"");
   EXPECT_FALSE(b.scene->options.pixel_jitter || b.scene->options.wavelength_jitter);
@@ -78,7 +78,7 @@ TEST(SceneOptions, WithoutEffect) {
   EXPECT_EQ(build("Option \"msereferenceimage\" \"a.exr\"").warnings,
             "test.pbrt:1:8: option \"msereferenceimage\" has no effect here; nephroid compare "
             "measures pictures\n");
-  EXPECT_EQ(error_of("Option \"rendercoordsys\" \"object\""),
+  EXPECT_EQ(option_error("Option \"rendercoordsys\" \"object\""),
             "test.pbrt:1:8: unknown rendering coordinate system \"object\", expected \"camera\", "
             "\"cameraworld\" or \"world\"");
 }
@@ -98,23 +98,24 @@ TEST(SceneOptions, Sampler) {
 }
 
 TEST(FilmLine, ExposureAndWhiteBalance) {
-  const Built plain = build(
+  const BuiltWithOptions plain = build(
       "Film \"rgb\" \"float iso\" 400 Camera \"perspective\" \"float "
       "shutteropen\" 0.25 \"float shutterclose\" 0.75");
   EXPECT_EQ(plain.scene->film.imaging_ratio, 2.0f);
   EXPECT_FALSE(plain.scene->film.white_balance.has_value());
   EXPECT_TRUE(build("Film \"rgb\" \"float whitebalance\" 5000").scene->film.white_balance);
   // A measured sensor is balanced for 6500 K.
-  const Built measured = build("Film \"rgb\" \"string sensor\" \"nikon_d850\" \"float iso\" 200");
+  const BuiltWithOptions measured =
+      build("Film \"rgb\" \"string sensor\" \"nikon_d850\" \"float iso\" 200");
   EXPECT_EQ(measured.scene->film.imaging_ratio, 2.0f);
   ASSERT_TRUE(measured.scene->film.white_balance);
   EXPECT_NEAR((*measured.scene->film.white_balance)[0][0], 1, 5e-3);
   EXPECT_EQ(measured.warnings,
             "test.pbrt:1:12: sensor \"nikon_d850\" is rendered as \"cie1931\" with its exposure\n");
-  EXPECT_EQ(error_of("Film \"rgb\" \"string sensor\" \"nikon_d85\""),
+  EXPECT_EQ(option_error("Film \"rgb\" \"string sensor\" \"nikon_d85\""),
             "test.pbrt:1:12: unknown sensor \"nikon_d85\", did you mean \"nikon_d850\"? (expected "
             "\"cie1931\" or a sensor of pbrt-v4)");
-  EXPECT_EQ(error_of("Film \"rgb\" \"float whitebalance\" 20"),
+  EXPECT_EQ(option_error("Film \"rgb\" \"float whitebalance\" 20"),
             "test.pbrt:1:12: \"whitebalance\" must be 0 or a temperature from 500 to 100000 K");
 }
 
@@ -124,14 +125,14 @@ TEST(FilmLine, Types) {
   EXPECT_EQ(build("Film \"gbuffer\" \"string coordinatesystem\" \"world\"").scene->film.gbuffer,
             GBufferSpace::kWorld);
   EXPECT_EQ(build("Film \"rgb\" \"float diagonal\" 50").scene->film.diagonal_mm, 50.0f);
-  EXPECT_EQ(error_of("Film \"gbuffer\" \"string coordinatesystem\" \"screen\""),
+  EXPECT_EQ(option_error("Film \"gbuffer\" \"string coordinatesystem\" \"screen\""),
             "test.pbrt:1:16: unknown coordinate system \"screen\" of the film, expected \"camera\" "
             "or \"world\"");
-  EXPECT_EQ(error_of("Film \"spectral\""),
+  EXPECT_EQ(option_error("Film \"spectral\""),
             "test.pbrt:1:1: film \"spectral\" is not rendered: the film keeps colours, no spectra, "
             "expected "
             "one of \"rgb\", \"gbuffer\"");
-  EXPECT_EQ(error_of("Film \"gbufer\""),
+  EXPECT_EQ(option_error("Film \"gbufer\""),
             "test.pbrt:1:1: unknown film \"gbufer\", did you mean \"gbuffer\"?");
 }
 

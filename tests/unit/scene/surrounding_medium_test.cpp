@@ -12,12 +12,12 @@ constexpr const char* kWater =
     "MakeNamedMedium \"water\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1 1 1] \"rgb "
     "sigma_s\" [0 0 0]\n";
 
-std::unique_ptr<Scene> scene_of(const std::string& text) {
+std::unique_ptr<Scene> scene_in_medium(const std::string& text) {
   Diagnostics diagnostics;
   return build_scene(parse_pbrt_string(text, "test.pbrt", ".", diagnostics), {}, diagnostics);
 }
 
-std::string ball(const std::string& inside, const std::string& outside) {
+std::string ball_in(const std::string& inside, const std::string& outside) {
   return "AttributeBegin\nMaterial \"interface\"\nMediumInterface \"" + inside + "\" \"" + outside +
          "\"\nShape \"sphere\" \"float radius\" 3\nAttributeEnd\n";
 }
@@ -26,9 +26,9 @@ constexpr const char* kLights =
     "LightSource \"infinite\"\nLightSource \"distant\"\nLightSource \"point\"\n";
 
 TEST(SurroundingMedium, OfACameraInABallOfWaterIsEmptySpace) {
-  const auto scene =
-      scene_of(std::string(kWater) + "MediumInterface \"\" \"water\"\nCamera \"perspective\"\n" +
-               "WorldBegin\n" + kLights + ball("water", ""));
+  const auto scene = scene_in_medium(std::string(kWater) +
+                                     "MediumInterface \"\" \"water\"\nCamera \"perspective\"\n" +
+                                     "WorldBegin\n" + kLights + ball_in("water", ""));
   const auto medium = surrounding_medium(*scene);
   ASSERT_TRUE(medium);
   EXPECT_EQ(*medium, nullptr);
@@ -39,10 +39,10 @@ TEST(SurroundingMedium, OfACameraInABallOfWaterIsEmptySpace) {
 }
 
 TEST(SurroundingMedium, IsTheCamerasWithoutAnyBoundary) {
-  const auto scene = scene_of(std::string(kWater) +
-                              "MediumInterface \"\" \"water\"\nCamera \"perspective\"\n"
-                              "WorldBegin\nMediumInterface \"\" \"\"\n" +
-                              kLights + "Shape \"sphere\" \"float radius\" 3\n");
+  const auto scene = scene_in_medium(std::string(kWater) +
+                                     "MediumInterface \"\" \"water\"\nCamera \"perspective\"\n"
+                                     "WorldBegin\nMediumInterface \"\" \"\"\n" +
+                                     kLights + "Shape \"sphere\" \"float radius\" 3\n");
   const auto medium = surrounding_medium(*scene);
   ASSERT_TRUE(medium);
   ASSERT_NE(*medium, nullptr);
@@ -52,9 +52,9 @@ TEST(SurroundingMedium, IsTheCamerasWithoutAnyBoundary) {
 
 TEST(SurroundingMedium, IsUnknownAboveAnOpenSurfaceOfWater) {
   const auto scene =
-      scene_of(std::string(kWater) + "Camera \"perspective\"\nWorldBegin\n" + kLights +
-               "Material \"interface\"\nMediumInterface \"water\" \"\"\n"
-               "Shape \"bilinearmesh\" \"point3 P\" [-9 -1 9  9 -1 9  -9 -1 -9  9 -1 -9]\n");
+      scene_in_medium(std::string(kWater) + "Camera \"perspective\"\nWorldBegin\n" + kLights +
+                      "Material \"interface\"\nMediumInterface \"water\" \"\"\n"
+                      "Shape \"bilinearmesh\" \"point3 P\" [-9 -1 9  9 -1 9  -9 -1 -9  9 -1 -9]\n");
   EXPECT_FALSE(surrounding_medium(*scene));
   EXPECT_EQ(scene->light_media[0].outside, nullptr);
 }

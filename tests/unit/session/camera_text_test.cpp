@@ -22,14 +22,14 @@ using testing::expect_same_rays;
 using testing::kBall;
 using testing::TemporaryDirectory;
 
-SceneDescription with_camera(const std::string& transform) {
+SceneDescription seen_by(const std::string& transform) {
   return description_of(transform + " Camera \"perspective\" \"float fov\" 30" + kBall);
 }
 
 TEST(CameraText, IsALookAtAndACamera) {
-  EXPECT_EQ(camera_text(with_camera("LookAt 0 0 -5  0 0 0.1  0 1 0")),
+  EXPECT_EQ(camera_text(seen_by("LookAt 0 0 -5  0 0 0.1  0 1 0")),
             "LookAt 0 0 -5  0 0 5  0 1 0\nCamera \"perspective\" \"float fov\" [ 30 ]\n");
-  EXPECT_EQ(camera_text(with_camera("Scale -1 1 1 LookAt 0.3 40 -7  0.3 40 8  0 2 0")),
+  EXPECT_EQ(camera_text(seen_by("Scale -1 1 1 LookAt 0.3 40 -7  0.3 40 8  0 2 0")),
             "Scale -1 1 1\nLookAt 0.3 40 -7  0.3 40 93  0 1 0\n"
             "Camera \"perspective\" \"float fov\" [ 30 ]\n");
   EXPECT_EQ(camera_text(description_of(kBall)),
@@ -38,7 +38,7 @@ TEST(CameraText, IsALookAtAndACamera) {
 
 TEST(CameraText, PastedGivesTheSameCamera) {
   for (const std::string& transform : camera_transforms()) {
-    const SceneDescription scene = with_camera(transform);
+    const SceneDescription scene = seen_by(transform);
     const std::string text = camera_text(scene);
     const SceneDescription pasted = description_of(text + kBall);
     EXPECT_LT(difference(pasted.camera->world_to_camera.start, scene.camera->world_to_camera.start),
@@ -49,7 +49,7 @@ TEST(CameraText, PastedGivesTheSameCamera) {
 }
 
 TEST(CameraText, HasBothEndsOfAMotion) {
-  const SceneDescription scene = with_camera(
+  const SceneDescription scene = seen_by(
       "TransformTimes 0.5 2 Scale -1 1 1 ActiveTransform EndTime Rotate 20 0 1 0 "
       "ActiveTransform All LookAt 3 1 4  0 0 0  0 1 0");
   const SceneDescription pasted = description_of(camera_text(scene) + kBall);

@@ -34,7 +34,7 @@ constexpr char kKey[] = R"(
 
 // A ball of glass over the middle of the floor, in the light of the lamp above and of the sky. The
 // caustic lies below the ball and is seen through it, or beside it.
-constexpr char kBall[] = R"(
+constexpr char kInspectedBall[] = R"(
   LightSource "infinite" "string name" "sky" "rgb L" [0.3 0.3 0.4]
   MakeNamedMaterial "glass" "string type" "dielectric" "float eta" 1.5
   NamedMaterial "glass"
@@ -115,7 +115,7 @@ TEST(Inspect, NamesTheLampThatLightsAFloor) {
 }
 
 TEST(Inspect, FindsTheCasterOfACaustic) {
-  Inspected view(std::string(kKey) + kBall, "mixed");
+  Inspected view(std::string(kKey) + kInspectedBall, "mixed");
   const PixelInspection found = view.at(7, 3);
   const InspectedPath* caustic = path_of(found, "C <RD'floor'> <TS'glass'> <TS'glass'> <L.'key'>");
   ASSERT_NE(caustic, nullptr);
@@ -132,7 +132,7 @@ TEST(Inspect, FindsTheCasterOfACaustic) {
 }
 
 TEST(Inspect, FollowsBothWaysAtGlass) {
-  Inspected view(std::string(kKey) + kBall, "bpm");
+  Inspected view(std::string(kKey) + kInspectedBall, "bpm");
   const PixelInspection found = view.at(7, 2);
   const InspectedPath* path = path_of(found, "C <TS'glass'> <TS'glass'> <RD'floor'> <B.'sky'>");
   ASSERT_NE(path, nullptr);
@@ -193,7 +193,7 @@ TEST(Inspect, ShowsBothEndsOfSubsurfaceLight) {
 
 // A word is an expression: a layer of that expression has the light of the word.
 TEST(Inspect, FindsTheLightOfEachWord) {
-  const std::string world = std::string(kKey) + kBall;
+  const std::string world = std::string(kKey) + kInspectedBall;
   constexpr size_t kWords = 3;
   const PixelInspection found = Inspected(world, "mixed").at(7, 4);
   RoutePlan plan = plan_named("mixed");
@@ -221,7 +221,7 @@ TEST(Inspect, FindsTheLightOfEachWord) {
 
 void expect_agreement(const char* integrator, uint32_t passes,
                       const std::string& film_parameters = "") {
-  Inspected view(std::string(kKey) + kBall, integrator, passes, film_parameters);
+  Inspected view(std::string(kKey) + kInspectedBall, integrator, passes, film_parameters);
   for (const Vec2i& pixel : {Vec2i(7, 3), Vec2i(7, 5), Vec2i(2, 9)}) {
     const PixelInspection found = view.at(pixel.x, pixel.y);
     const std::string where = fmt::format("{} at {},{}", integrator, pixel.x, pixel.y);
@@ -263,7 +263,7 @@ TEST(Inspect, AgreesWithAFilmThatClampsAndCrops) {
 TEST(Inspect, SaysWhatStandsInForEstimatorsOfWholePictures) {
   for (const auto& [integrator, estimator] :
        {std::pair{"vcm", "vcm"}, {"sppm", "sppm"}, {"split", "lighttrace"}}) {
-    Inspected view(std::string(kKey) + kBall, integrator, 50);
+    Inspected view(std::string(kKey) + kInspectedBall, integrator, 50);
     const PixelInspection found = view.at(7, 3);
     ASSERT_EQ(found.notes.size(), 1u) << integrator;
     EXPECT_NE(found.notes[0].find(std::string("of ") + estimator), std::string::npos);
@@ -288,7 +288,7 @@ TEST(Inspect, LetsPathTracingStandInWhereItAloneFindsTheLight) {
 }
 
 TEST(Inspect, IsTheSameForAnyNumberOfThreads) {
-  Inspected view(std::string(kKey) + kBall, "mixed");
+  Inspected view(std::string(kKey) + kInspectedBall, "mixed");
   const PixelInspection many = view.at(7, 3);
   const ThreadLimit one(1);
   const PixelInspection single = view.at(7, 3);

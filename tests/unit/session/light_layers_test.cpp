@@ -146,7 +146,7 @@ IntegratorOptions few_photons() {
   return options;
 }
 
-class LightLayersOf : public testing::TestWithParam<const char*> {};
+class LightLayersOf : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(LightLayersOf, AddUpToThePicture) {
   const auto scene = scene_from_text(kWorld);
@@ -182,7 +182,7 @@ TEST_P(LightLayersOf, AddUpByRoute) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, LightLayersOf, testing::Values("path", "mixed", "split"));
+INSTANTIATE_TEST_SUITE_P(Integrators, LightLayersOf, ::testing::Values("path", "mixed", "split"));
 
 }  // namespace
 }  // namespace nephroid

@@ -19,7 +19,7 @@ constexpr const char* kScene =
   Integrator "volpath" "integer maxdepth" 4 "integer unheardof" 1
   WorldBegin LightSource "point" "point3 from" [0 0 -2] Translate 0 0 3 Shape "sphere")";
 
-class RenderPage : public testing::Test {
+class RenderPage : public ::testing::Test {
  protected:
   RenderPage() {
     request_.scene = directory_.file("scene.pbrt");

@@ -18,7 +18,7 @@ constexpr const char* kFirstCamera = R"(
   Scale -1 1 1 LookAt 1 2 -9  0 0.5 0  0 1 0
   Camera "perspective" "float fov" 30
 )";
-constexpr const char* kWorld = R"(
+constexpr const char* kRenewedWorld = R"(
   Film "rgb" "integer xresolution" 24 "integer yresolution" 16
   Sampler "sobol" "integer pixelsamples" 4
   MakeNamedMedium "fog" "string type" "homogeneous" "float scale" 0.02
@@ -38,7 +38,7 @@ constexpr const char* kWorld = R"(
 /// Builds with the first camera, renews to that of `wanted`, and compares with a scene that was
 /// built for it.
 void expect_renewed_is_built(const SceneDescription& wanted, const SceneOverrides& overrides) {
-  const SceneDescription first = description_of(std::string(kFirstCamera) + kWorld);
+  const SceneDescription first = description_of(std::string(kFirstCamera) + kRenewedWorld);
   const auto scene = built(first, overrides), expected = built(wanted, overrides);
   Diagnostics diagnostics;
   renew_camera(*scene, wanted, overrides, diagnostics);
@@ -61,11 +61,11 @@ TEST(RenewCamera, GivesThePictureOfASceneBuiltWithIt) {
         "Translate 0 -1 4 Camera \"spherical\" \"float shutterclose\" 0.5",
         "LookAt 1 0 -2  0 0 0  0 1 0 MediumInterface \"\" \"fog\" Camera \"perspective\" "
         "MediumInterface \"\" \"\""})
-    expect_renewed_is_built(description_of(std::string(camera) + kWorld), {});
+    expect_renewed_is_built(description_of(std::string(camera) + kRenewedWorld), {});
 }
 
 TEST(RenewCamera, TakesAMovedCameraAndTheResolutionAndCropOfTheCommandLine) {
-  SceneDescription wanted = description_of(std::string(kFirstCamera) + kWorld);
+  SceneDescription wanted = description_of(std::string(kFirstCamera) + kRenewedWorld);
   CameraPose pose = camera_pose(wanted, *built(wanted));
   pose.eye = Vec3d(2, 1, -7);
   pose.fov = 44;
@@ -79,7 +79,7 @@ TEST(RenewCamera, TakesAMovedCameraAndTheResolutionAndCropOfTheCommandLine) {
 }
 
 TEST(RenewCamera, ChangesNothingIfItFails) {
-  SceneDescription description = description_of(std::string(kFirstCamera) + kWorld);
+  SceneDescription description = description_of(std::string(kFirstCamera) + kRenewedWorld);
   const auto scene = built(description);
   const Camera* camera = scene->camera.get();
   Diagnostics diagnostics;

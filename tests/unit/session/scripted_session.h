@@ -62,7 +62,7 @@ class FakeEstimator : public Estimator {
 };
 
 /// A film of 5 x 3 pixels, one route, six samples per pixel.
-class ScriptedSession : public testing::Test {
+class ScriptedSession : public ::testing::Test {
  protected:
   ScriptedSession() {
     set_.layout = FilmLayout::of_routes({"diffuse"});

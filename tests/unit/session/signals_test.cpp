@@ -9,7 +9,7 @@ namespace nephroid {
 namespace {
 
 /// The parent of the tests may ignore some signals (nohup, a shell's background job).
-class Signals : public testing::Test {
+class Signals : public ::testing::Test {
  protected:
   void SetUp() override {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
@@ -47,10 +47,10 @@ TEST_F(SignalsDeathTest, TheFirstInterruptIsAnswered) {
     std::raise(signal);
     std::raise(SIGINT);
   };
-  EXPECT_EXIT(twice(SIGINT, true), testing::KilledBySignal(SIGINT),
+  EXPECT_EXIT(twice(SIGINT, true), ::testing::KilledBySignal(SIGINT),
               "stopping and writing the picture");
-  EXPECT_EXIT(twice(SIGINT, false), testing::KilledBySignal(SIGINT), "^$");
-  EXPECT_EXIT(twice(SIGTERM, true), testing::KilledBySignal(SIGINT), "^$");
+  EXPECT_EXIT(twice(SIGINT, false), ::testing::KilledBySignal(SIGINT), "^$");
+  EXPECT_EXIT(twice(SIGTERM, true), ::testing::KilledBySignal(SIGINT), "^$");
 }
 
 TEST_F(SignalsDeathTest, TheSecondInterruptKills) {
@@ -61,8 +61,8 @@ TEST_F(SignalsDeathTest, TheSecondInterruptKills) {
     std::raise(first);
     std::raise(second);
   };
-  EXPECT_EXIT(twice(SIGINT, SIGINT), testing::KilledBySignal(SIGINT), "");
-  EXPECT_EXIT(twice(SIGTERM, SIGINT), testing::KilledBySignal(SIGINT), "");
+  EXPECT_EXIT(twice(SIGINT, SIGINT), ::testing::KilledBySignal(SIGINT), "");
+  EXPECT_EXIT(twice(SIGTERM, SIGINT), ::testing::KilledBySignal(SIGINT), "");
 }
 
 TEST_F(Signals, ASecondTerminationChangesNothing) {
@@ -128,8 +128,8 @@ TEST_F(SignalsDeathTest, BeforeThereIsSomethingToWriteTheFirstOneKills) {
     std::raise(SIGUSR1);  // recorded until there is a picture to write
     if (listener.flags().write.load()) std::raise(signal);
   };
-  EXPECT_EXIT(early(SIGINT), testing::KilledBySignal(SIGINT), "");
-  EXPECT_EXIT(early(SIGTERM), testing::KilledBySignal(SIGTERM), "");
+  EXPECT_EXIT(early(SIGINT), ::testing::KilledBySignal(SIGINT), "");
+  EXPECT_EXIT(early(SIGTERM), ::testing::KilledBySignal(SIGTERM), "");
 }
 
 }  // namespace

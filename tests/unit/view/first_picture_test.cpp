@@ -76,7 +76,7 @@ Answer first_answer(SlowRender& render) {
 
 Picture decoded(const PictureFrame& frame) {
   const std::vector<uint8_t> png = first_picture_png(frame);
-  const std::string path = testing::TempDir() + "nephroid-first-picture.png";
+  const std::string path = ::testing::TempDir() + "nephroid-first-picture.png";
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
   Picture picture = read_picture(path);

@@ -42,7 +42,7 @@ inline bool has_picture(const LiveRender& live) {
   });
 }
 
-class LiveTest : public testing::Test {
+class LiveTest : public ::testing::Test {
  protected:
   LiveTest() { write(kLiveScene); }
 

@@ -31,7 +31,7 @@ const std::vector<std::string> kChannels = {
     "R",   "G", "B",        "caustic.R", "caustic.G", "caustic.B", "N.X",    "N.Y",
     "N.Z", "Z", "stderr.R", "stderr.G",  "stderr.B",  "bias.Y",    "samples"};
 
-class PictureView : public testing::Test {
+class PictureView : public ::testing::Test {
  protected:
   /// The view of a picture; one at a time.
   PictureSource& view_of(const Picture& picture) {

@@ -26,7 +26,7 @@ std::string content_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-class SaveDirectory : public testing::Test {
+class SaveDirectory : public ::testing::Test {
  protected:
   SaveDirectory() { fs::create_directory(saves_); }
 

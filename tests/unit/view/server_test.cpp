@@ -58,7 +58,7 @@ class GreySource final : public ViewSource {
   size_t payload_ = 0;
 };
 
-class Server : public testing::Test {
+class Server : public ::testing::Test {
  protected:
   Server() {
     const std::string url = server_.url();

@@ -25,7 +25,7 @@ Shape "bilinearmesh" "point3 P" [ -2 -0.6 -2  2 -0.6 -2  -2 -0.6 2  2 -0.6 2 ]
 )";
 
 class Undisturbed : public testing_support::LiveTest,
-                    public testing::WithParamInterface<const char*> {
+                    public ::testing::WithParamInterface<const char*> {
  protected:
   RenderRequest wanted() const {
     RenderRequest wanted = request(4);
@@ -94,7 +94,7 @@ TEST_P(Undisturbed, PicturesHaveTheSameBits) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, Undisturbed, testing::Values("mixed", "path", "sppm"),
+INSTANTIATE_TEST_SUITE_P(Integrators, Undisturbed, ::testing::Values("mixed", "path", "sppm"),
                          [](const auto& named) { return std::string(named.param); });
 
 }  // namespace

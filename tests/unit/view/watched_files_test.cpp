@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Watched : public testing::Test {
+class Watched : public ::testing::Test {
  protected:
   Watched() { write(file_, "old"); }
 

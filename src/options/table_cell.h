@@ -1,0 +1,15 @@
+// What the generated pages of several tables share: the text of a table cell.
+#pragma once
+
+#include <string>
+
+namespace nephroid {
+
+/// The text of a table cell, with bars escaped: they would end the cell.
+inline std::string table_cell(std::string text) {
+  for (size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
+    text.insert(at, "\\");
+  return text;
+}
+
+}  // namespace nephroid
