@@ -171,16 +171,33 @@ std::vector<double> JsonValue::find_numbers(const std::string& name, size_t coun
 
 namespace {
 
+/// Whether more than `limit` arrays and objects are open at some place of the text. The parser's
+/// callback would tell the depth, too, but with one the parser takes quadratic time for an array.
+bool is_nested_deeper(std::string_view text, int limit) {
+  int depth = 0;
+  bool in_string = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string && c == '\\')
+      ++i;
+    else if (c == '"')
+      in_string = !in_string;
+    else if (!in_string && (c == '[' || c == '{'))
+      ++depth;
+    else if (!in_string && (c == ']' || c == '}'))
+      --depth;
+    if (depth > limit) return true;
+  }
+  return false;
+}
+
 json parse(std::string_view text, const std::string& file) {
-  const auto refuse_depth = [&](int depth, json::parse_event_t, json&) {
-    if (depth > kMaxJsonDepth)
-      throw SceneError({std::make_shared<const std::string>(file), 0, 0},
-                       "the JSON text is nested more than " + std::to_string(kMaxJsonDepth) +
-                           " levels deep, expected fewer");
-    return true;
-  };
+  if (is_nested_deeper(text, kMaxJsonDepth))
+    throw SceneError({std::make_shared<const std::string>(file), 0, 0},
+                     "the JSON text is nested more than " + std::to_string(kMaxJsonDepth) +
+                         " levels deep, expected fewer");
   try {
-    return json::parse(text.begin(), text.end(), refuse_depth);
+    return json::parse(text.begin(), text.end());
   } catch (const json::parse_error& error) {
     const size_t at = std::min(error.byte, text.size());
     const std::string_view before = text.substr(0, at);

@@ -125,6 +125,20 @@ TEST(GltfFile, SyntaxErrorsHaveTheirLine) {
   EXPECT_NE(gltf_error(std::string(100000, '[')).find("nested more than"), std::string::npos);
 }
 
+TEST(GltfFile, BracketsAreCountedWhereTheyAreOpenAndOutsideOfStrings) {
+  const auto extras = [](const std::string& value) {
+    return gltf_error(R"({"asset":{"version":"2.0"},"extras":)" + value + "}");
+  };
+  const auto nested = [](int levels) {
+    return std::string(levels, '[') + std::string(levels, ']');
+  };
+  EXPECT_EQ(extras(nested(199)), "");
+  EXPECT_EQ(extras(nested(200)),
+            "scene.gltf: the JSON text is nested more than 200 levels deep, expected fewer");
+  EXPECT_EQ(extras("[" + nested(198) + "," + nested(198) + "]"), "");
+  EXPECT_EQ(extras("\"" + std::string(300, '[') + "\\\"" + std::string(300, '{') + "\""), "");
+}
+
 TEST(GltfFile, ExtensionsThatAreRequiredMustBeKnown) {
   EXPECT_EQ(gltf_error(R"({"asset":{"version":"2.0"},"extensionsRequired":["ACME_magic"]})"),
             "scene.gltf#/extensionsRequired/0: the file requires the extension \"ACME_magic\", "
