@@ -7,7 +7,7 @@ target_compile_options(nephroid_flags INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 warns of string concatenations that are fine (GCC bug 105651).
   target_compile_options(nephroid_flags INTERFACE -Wno-restrict)
-  # Several files in one: it takes classes with members of an anonymous namespace for those of a header.
+  # With several files in one, it takes their anonymous namespaces for those of a header and warns of classes with such members.
   if(CMAKE_UNITY_BUILD)
     target_compile_options(nephroid_flags INTERFACE -Wno-subobject-linkage)
   endif()

@@ -25,8 +25,8 @@ using Bounds3f = Imath::Box3f;
 
 inline constexpr float kPi = 3.14159265358979323846f;
 inline constexpr double kPiDouble = 3.14159265358979323846;
-inline constexpr double kTwoPi = 2.0 * kPiDouble;
-/// Radians in a degree.
+inline constexpr double kTwoPiDouble = 2.0 * kPiDouble;
+/// Radians in a degree, in double precision.
 inline constexpr double kDegree = kPiDouble / 180;
 inline constexpr float kInvPi = 0.31830988618379067154f;
 inline constexpr float kInv2Pi = 0.15915494309189533577f;

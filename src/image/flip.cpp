@@ -12,12 +12,12 @@
 
 #include "core/counted.h"
 #include "core/errors.h"
+#include "core/math.h"
 #include "core/parallel.h"
 
 namespace nephroid {
 namespace {
 
-constexpr double kPiD = std::numbers::pi;
 constexpr int64_t kFlipRowsPerChunk = 8;
 
 using Triple = std::array<double, 3>;
@@ -143,16 +143,17 @@ constexpr double kWidest = 0.04;
 
 /// [FL2] An opponent channel filtered by the eye's contrast sensitivity at this distance.
 Plane seen(const Plane& channel, const Sensitivity& sensitivity, double ppd) {
-  const int radius = static_cast<int>(std::ceil(3 * std::sqrt(kWidest / (2 * kPiD * kPiD)) * ppd));
+  const int radius =
+      static_cast<int>(std::ceil(3 * std::sqrt(kWidest / (2 * kPiDouble * kPiDouble)) * ppd));
   Plane result(channel.width, channel.height);
   double total = 0;
   for (const Gaussian& g : sensitivity.terms) {
     if (g.a == 0) continue;
     const Kernel kernel = make_kernel(radius, [&](double i) {
       const double x = i / ppd;
-      return std::exp(-kPiD * kPiD * x * x / g.b);
+      return std::exp(-kPiDouble * kPiDouble * x * x / g.b);
     });
-    const double amplitude = g.a * std::sqrt(kPiD / g.b);
+    const double amplitude = g.a * std::sqrt(kPiDouble / g.b);
     total += amplitude * sum_of(kernel) * sum_of(kernel);
     const Plane term = filtered(channel, kernel, kernel);
     for (size_t i = 0; i < result.values.size(); ++i)

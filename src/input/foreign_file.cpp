@@ -42,7 +42,7 @@ constexpr Format kFirstBytes[] = {
     {"\x1f\x8b", "a gzip file", " (packed scenes have names that end in .gz)"},
 };
 
-constexpr Format kFirstWords[] = {
+constexpr Format kSuffixes[] = {
     {".usd", "a USD scene", kScene},         {".usda", "a USD scene", kScene},
     {".usdc", "a binary USD scene", kScene}, {".usdz", "a USD scene", kScene},
     {".blend", "a Blender file", kScene},    {".fbx", "an FBX scene", kScene},
@@ -95,7 +95,7 @@ Format format_of(std::string_view bytes, const std::string& path) {
   if (is_obj(text)) return {"", "a Wavefront OBJ mesh", kObj};
   // Directives begin with a capital letter: such a file may be a scene whatever its name.
   if (std::isupper(static_cast<unsigned char>(text[0]))) return {"", "", ""};
-  for (const Format& format : kFirstWords)
+  for (const Format& format : kSuffixes)
     if (has_suffix(path, std::string(format.mark))) return format;
   return {"", "", ""};
 }

@@ -1,7 +1,6 @@
 #include "input/scene_reader.h"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "input/file_bytes.h"

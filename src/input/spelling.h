@@ -1,4 +1,4 @@
-// "Did you mean ...?" for misspelt names, and names in small letters. It must not know what is
+// "Did you mean ...?" for misspelt names, and words in small letters. It must not know what is
 // named.
 #pragma once
 

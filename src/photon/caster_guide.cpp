@@ -20,7 +20,7 @@ constexpr float kMaxSine2 = 0.9f;
 /// Lower bound of a BSDF's density towards a ball that is partly in its reach.
 constexpr float kMinDensity = 0.1f / kPi;
 /// A single place gets a second ball if that one is wider by this factor.
-constexpr float kCasterWider = 1.05f;
+constexpr float kWiderCasterBall = 1.05f;
 /// Attempts until a sampled direction is inside of its cone in spite of rounding.
 constexpr int kMaxTries = 64;
 
@@ -95,7 +95,7 @@ CasterGuide::CasterGuide(std::span<const UsefulStart> met, float scene_radius) {
   for (const StartTree::Crowd& crowd : tree.inner())
     add(crowd, crowd.half_diagonal(), kCasterShareAround / static_cast<float>(tree.inner().size()));
   const StartTree::Crowd& only = tree.leaves()[0];
-  if (tree.inner().empty() && only.half_diagonal() > kCasterWider * farthest_of(only))
+  if (tree.inner().empty() && only.half_diagonal() > kWiderCasterBall * farthest_of(only))
     add(only, only.half_diagonal(), kCasterShareAround);
 }
 

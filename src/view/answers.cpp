@@ -18,6 +18,7 @@
 #include "session/camera_edit.h"
 #include "session/camera_text.h"
 #include "view/first_picture.h"
+#include "view/frame.h"
 #include "view/inspection_json.h"
 #include "view/json_text.h"
 #include "view/live_render.h"
@@ -134,7 +135,7 @@ Answer Answers::state(const Parameters&, const std::string&) {
 
 Answer Answers::comparison_frame(const std::string& id) const {
   const std::shared_ptr<const Picture> picture = comparison(id);
-  const FrameLayerPtr layers[] = {frame_layer(*picture, "picture", "RGB", {"R", "G", "B"})};
+  const FrameLayerPtr layers[] = {frame_layer(*picture, kPictureLayer, "RGB", {"R", "G", "B"})};
   FrameInfo info;
   info.version = 1;
   info.width = picture->full_width;
@@ -151,7 +152,7 @@ Answer Answers::frame(const Parameters& parameters, const std::string&) {
   if (!id.empty()) return comparison_frame(id);
   const std::string names = text(parameters, "layers");
   const std::vector<std::string> layers =
-      parse_names("layers", names.empty() ? "picture" : names, "picture,caustic");
+      parse_names("layers", names.empty() ? kPictureLayer : names, "picture,caustic");
   if (layers.size() > kMaxLayers || has_repeats(layers))
     throw UsageError(fmt::format("layers: expected at most {} names, each once", kMaxLayers));
   auto bytes =

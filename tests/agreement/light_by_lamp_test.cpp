@@ -20,7 +20,7 @@ constexpr const char* kLampView = R"(
   AttributeBegin Translate 0 0.6 0 Material "dielectric" Shape "sphere" "float radius" 0.5
   AttributeEnd
 )";
-constexpr const char* kSquareLamp = R"(AttributeBegin
+constexpr const char* kBallLamp = R"(AttributeBegin
   AreaLightSource "diffuse" "rgb L" [9 3 3] "string name" "lamp"
   Translate 2 3 0 Shape "sphere" "float radius" 0.4 AttributeEnd
 )";
@@ -68,7 +68,7 @@ Counts counts_of(const std::string& world, const std::string& plan, uint32_t pas
 class LightByLamp : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(LightByLamp, AddsUpToThePicture) {
-  const Counts counts = counts_of(std::string(kSquareLamp) + kLampSky + kBoxed, GetParam(), 8);
+  const Counts counts = counts_of(std::string(kBallLamp) + kLampSky + kBoxed, GetParam(), 8);
   EXPECT_TRUE(counts.tells);
   ASSERT_EQ(counts.lamps.size(), 3u);
   EXPECT_EQ(counts.light("point1"), 0);
@@ -78,9 +78,9 @@ TEST_P(LightByLamp, AddsUpToThePicture) {
 }
 
 TEST_P(LightByLamp, IsTheLightOfEachLampAlone) {
-  const Counts both = counts_of(std::string(kSquareLamp) + kLampSky, GetParam(), 8);
+  const Counts both = counts_of(std::string(kBallLamp) + kLampSky, GetParam(), 8);
   const double share = both.light("lamp") / both.film;
-  const double lamp = counts_of(kSquareLamp, GetParam(), 8).film,
+  const double lamp = counts_of(kBallLamp, GetParam(), 8).film,
                sky = counts_of(kLampSky, GetParam(), 8).film;
   // The standard error of the share is about 0.02.
   EXPECT_NEAR(share, lamp / (lamp + sky), 0.08);
@@ -90,7 +90,7 @@ TEST_P(LightByLamp, ThreadsDoNotMatter) {
   std::vector<Counts> counts;
   for (const int threads : {1, 3}) {
     const ThreadLimit limit(threads);
-    counts.push_back(counts_of(std::string(kSquareLamp) + kLampSky + kBoxed, GetParam(), 2));
+    counts.push_back(counts_of(std::string(kBallLamp) + kLampSky + kBoxed, GetParam(), 2));
   }
   for (size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(counts[0].lamps[i].light, counts[1].lamps[i].light);
@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(Estimators, LightByLamp,
                          [](const auto& row) { return std::string(row.param); });
 
 TEST(LightByLamp, LightsOfOneNameAreOneAndGlowingMediaAreOthers) {
-  const Counts counts = counts_of(std::string(kSquareLamp) + kSquareLamp + R"(
+  const Counts counts = counts_of(std::string(kBallLamp) + kBallLamp + R"(
     MakeNamedMedium "fire" "string type" "homogeneous" "rgb Le" [1 1 1] "rgb sigma_a" [1 1 1]
       "rgb sigma_s" [0 0 0]
     AttributeBegin MediumInterface "fire" "" Material "interface" Translate 1 1 1

@@ -15,7 +15,7 @@ using namespace testing_support;
 
 // A small lamp, and a glass ball on a much larger floor: photon emission is guided, and tiles
 // differ in noise.
-const std::string kTubeAndPatch = R"(
+const std::string kGlassBall = R"(
   LookAt 0 3 -4  0 0.3 0  0 1 0
   Camera "perspective" "float fov" 45
   Film "rgb" "integer xresolution" 20 "integer yresolution" 16
@@ -76,7 +76,7 @@ bool says(const Rendered& r, const std::string& words) {
 }
 
 TEST(PathAndPhotons, HasTheSameBitsForAnyNumberOfThreads) {
-  for (const std::string& text : {kTubeAndPatch, kTube, kPatch}) {
+  for (const std::string& text : {kGlassBall, kTube, kPatch}) {
     std::vector<Rendered> found;
     for (const int threads : {1, 2, 3, 7}) {
       const ThreadLimit limit(threads);
@@ -97,7 +97,7 @@ TEST(PathAndPhotons, HasTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(PathAndPhotons, HasTheSameBitsForAnyOrderAndAnyRanges) {
-  for (const std::string& text : {kTubeAndPatch, kTube, kPatch}) {
+  for (const std::string& text : {kGlassBall, kTube, kPatch}) {
     const Rendered whole = render_parts(text, {{0, 1, 2, 3, 4}});
     for (const auto& [name, parts] : {std::pair<const char*, std::vector<std::vector<uint32_t>>>{
                                           "backwards", {{4, 3, 2, 1, 0}}},
@@ -110,7 +110,7 @@ TEST(PathAndPhotons, HasTheSameBitsForAnyOrderAndAnyRanges) {
 TEST(PathAndPhotons, LearnsTheSameHoweverFewPhotonsFitInMemory) {
   IntegratorOptions batched;
   batched.memory_photons = 64;
-  for (const std::string& text : {kTubeAndPatch, kTube}) {
+  for (const std::string& text : {kGlassBall, kTube}) {
     const Rendered whole = render_parts(text, {{0, 1}}),
                    parts = render_parts(text, {{0, 1}}, batched);
     EXPECT_EQ(whole.notes, parts.notes);
@@ -124,7 +124,7 @@ TEST(PathAndPhotons, LearnsTheSameHoweverFewPhotonsFitInMemory) {
 }
 
 TEST(PathAndPhotons, LearnsAnewForEachSeed) {
-  const auto scene = scene_from_text(kTubeAndPatch);
+  const auto scene = scene_from_text(kGlassBall);
   EstimatorSet both = make_estimators(plan_named("mixed"), {}, *scene),
                one = make_estimators(plan_named("mixed"), {}, *scene);
   Film a = film_for(*scene, one), b = film_for(*scene, both), other = film_for(*scene, both);

@@ -22,7 +22,7 @@ std::string packed(const std::string& contents) {
 }
 
 /// Checks the guarantees for users of meshes.
-void check_mesh(const MeshData& mesh) {
+void check_mesh_data(const MeshData& mesh) {
   const size_t vertices = mesh.positions.size();
   bool good = mesh.triangles.size() % 3 == 0;
   good = good && (mesh.normals.empty() || mesh.normals.size() == vertices);
@@ -39,7 +39,8 @@ void check_mesh(const MeshData& mesh) {
 void serialized(const std::string& bytes) {
   try {
     const bool is_file = bytes.starts_with("\x1c\x04");
-    check_mesh(nephroid::mitsuba::read_serialized(is_file ? bytes : packed(bytes), 0, {}).mesh);
+    check_mesh_data(
+        nephroid::mitsuba::read_serialized(is_file ? bytes : packed(bytes), 0, {}).mesh);
   } catch (const Error&) {
   }
 }

@@ -171,8 +171,9 @@ std::vector<double> JsonValue::find_numbers(const std::string& name, size_t coun
 
 namespace {
 
-/// Whether more than `limit` arrays and objects are open at some place of the text. The parser's
-/// callback would tell the depth, too, but with one the parser takes quadratic time for an array.
+/// Whether more than `limit` arrays and objects are open at some place of the text. A callback
+/// of the parser would tell the depth, too, but with a callback the parser searches the whole array
+/// after each object in it: quadratic time.
 bool is_nested_deeper(std::string_view text, int limit) {
   int depth = 0;
   bool in_string = false;

@@ -8,7 +8,7 @@
 namespace nephroid::gltf {
 namespace {
 
-constexpr double kDegrees = 180 / kPiDouble;
+constexpr double kDegreesPerRadian = 180 / kPiDouble;
 
 void add_cone(const JsonValue& light, ParameterList& list) {
   const std::optional<JsonValue> spot = light.find_object("spot");
@@ -20,8 +20,8 @@ void add_cone(const JsonValue& light, ParameterList& list) {
     light.get("spot").fail("the angles of the cone are " + std::to_string(inner) + " and " +
                            std::to_string(outer) +
                            " radians, expected 0 <= inner <= outer <= pi/2 and outer > 0");
-  list.add_float("coneangle", outer * kDegrees);
-  list.add_float("conedeltaangle", (outer - inner) * kDegrees);
+  list.add_float("coneangle", outer * kDegreesPerRadian);
+  list.add_float("conedeltaangle", (outer - inner) * kDegreesPerRadian);
 }
 
 /// The node's transform without its scale, which lights do not have.

@@ -10,7 +10,7 @@ namespace {
 /// In mean free paths: so thin that the coat itself absorbs nothing.
 constexpr double kClearThickness = 1e-6;
 /// Events between base and coat: bright plastics need many.
-constexpr int kCoatMaxDepth = 100;
+constexpr int kMaxCoatDepth = 100;
 
 /// The base whose interreflection with the coat gives the reflectance of Mitsuba's linear plastic,
 /// which leaves the colour out of the sum: b / (1 - b F) = r / (1 - F).
@@ -53,7 +53,7 @@ Surface write_coated_diffuse(PluginProperties& p, bool is_rough) {
   add_color(m.parameters, "reflectance", nonlinear ? diffuse : linear_base(diffuse, eta), 0.5);
   add_float(m.parameters, "eta", eta);
   add_float(m.parameters, "thickness", kClearThickness);
-  add_integer(m.parameters, "maxdepth", kCoatMaxDepth);
+  add_integer(m.parameters, "maxdepth", kMaxCoatDepth);
   if (is_rough) add_roughness(p, m.parameters);
   return surface_of(p, std::move(m), true);
 }
@@ -103,7 +103,7 @@ Surface write_coat(PluginProperties& p, bool is_rough) {
   }
   add_float(m.parameters, prefix + "eta", eta);
   add_float(m.parameters, prefix + "thickness", thickness);
-  add_integer(m.parameters, "maxdepth", kCoatMaxDepth);
+  add_integer(m.parameters, "maxdepth", kMaxCoatDepth);
   if (is_rough)
     add_roughness(p, m.parameters, prefix);
   else

@@ -5,14 +5,14 @@
 namespace nephroid {
 namespace {
 
-bool is_blank_in_line(char c) {
+bool is_obj_blank(char c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
 /// The line without its comment: a "#" inside of a word, as in a file's name, begins none.
 std::string_view without_comment(std::string_view line) {
   for (size_t i = 0; i < line.size(); ++i)
-    if (line[i] == '#' && (i == 0 || is_blank_in_line(line[i - 1]))) return line.substr(0, i);
+    if (line[i] == '#' && (i == 0 || is_obj_blank(line[i - 1]))) return line.substr(0, i);
   return line;
 }
 
@@ -20,17 +20,17 @@ std::string_view without_comment(std::string_view line) {
 
 std::string_view take_word(std::string_view* text) {
   size_t start = 0;
-  while (start < text->size() && is_blank_in_line((*text)[start])) ++start;
+  while (start < text->size() && is_obj_blank((*text)[start])) ++start;
   size_t end = start;
-  while (end < text->size() && !is_blank_in_line((*text)[end])) ++end;
+  while (end < text->size() && !is_obj_blank((*text)[end])) ++end;
   const std::string_view word = text->substr(start, end - start);
   text->remove_prefix(end);
   return word;
 }
 
 std::string_view stripped(std::string_view text) {
-  while (!text.empty() && is_blank_in_line(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank_in_line(text.back())) text.remove_suffix(1);
+  while (!text.empty() && is_obj_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_obj_blank(text.back())) text.remove_suffix(1);
   return text;
 }
 

@@ -7,12 +7,12 @@ namespace nephroid {
 namespace {
 
 /// As in TechniqueCounter: later passes are not slowed down.
-constexpr uint32_t kLampPasses = 8;
+constexpr uint32_t kPassesOfLamps = 8;
 
 }  // namespace
 
 LampCounter::LampCounter(const SceneSymbols& symbols, uint32_t pass, bool counts)
-    : symbols_(symbols), counts_(counts && pass < kLampPasses) {
+    : symbols_(symbols), counts_(counts && pass < kPassesOfLamps) {
   if (counts_) lamps_.resize(symbols.lamp_names().size());
 }
 

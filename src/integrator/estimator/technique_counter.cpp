@@ -8,7 +8,7 @@ namespace nephroid {
 namespace {
 
 /// The first passes suffice, and later ones are not slowed down.
-constexpr uint32_t kTechniquePasses = 8;
+constexpr uint32_t kPassesOfTechniques = 8;
 
 double total(const Rgb& color) {
   return static_cast<double>(color.r) + color.g + color.b;
@@ -18,7 +18,7 @@ double total(const Rgb& color) {
 
 TechniqueCounter::TechniqueCounter(const FilmFormat& film, size_t group, uint32_t pass)
     : film_(film), group_(group) {
-  if (pass < kTechniquePasses) parts_.resize(film.parts_of(static_cast<int>(group)).size());
+  if (pass < kPassesOfTechniques) parts_.resize(film.parts_of(static_cast<int>(group)).size());
 }
 
 TechniqueCounter::Row TechniqueCounter::start_row(PartSums& light) const {

@@ -13,8 +13,8 @@ namespace nephroid {
 
 namespace {
 
-constexpr uint64_t kForecastStream = 0x666f7265;  // "fore"
-constexpr uint64_t kCastStream = 0x63617374;      // "cast"
+constexpr uint64_t kForecastStream = 0x666f7265;    // "fore"
+constexpr uint64_t kForecastLearning = 0x63617374;  // "cast"
 // Photons are traced in rounds until there are enough records, or kMaxRounds are done.
 constexpr int64_t kPhotonsOfRound = 1 << 16;
 constexpr size_t kEnoughRecords = 1 << 15;
@@ -185,8 +185,8 @@ std::shared_ptr<const Learned> Forecast::learn(const Scene& scene, const FilmFor
   const bool asked = options_.photons_per_pass > 0;
   const int64_t photons = asked ? options_.photons_per_pass : kPhotonsOfRound;
   for (int k = 0; k < (asked ? 1 : kMaxRounds) && records.size() < kEnoughRecords; ++k)
-    trace_round({hash_combine(seed, kCastStream), static_cast<uint32_t>(k)}, photons, scene, owned_,
-                options_.max_depth, records, made, control);
+    trace_round({hash_combine(seed, kForecastLearning), static_cast<uint32_t>(k)}, photons, scene,
+                owned_, options_.max_depth, records, made, control);
   made.map = ForecastMap(std::move(records));
   return std::make_shared<LearnedForecast>(std::move(made));
 }

@@ -40,7 +40,7 @@ class Cylinder final : public Quadric {
   }
   bool contains(const Vec3d& p) const override {
     if (!(p.z >= z_min_ && p.z <= z_max_)) return false;
-    return phi_max_ >= kTwoPi || positive_angle(p.y, p.x) <= phi_max_;
+    return phi_max_ >= kTwoPiDouble || positive_angle(p.y, p.x) <= phi_max_;
   }
   Vec3d point_at(const Vec2d& uv) const override {
     const double phi = uv.x * phi_max_;
@@ -69,7 +69,7 @@ class Cylinder final : public Quadric {
 
 ShapePtr make_cylinder(const Transform& object_to_world, bool reverse_orientation, float radius,
                        float z_min, float z_max, float phi_max_degrees) {
-  const double phi_max = std::clamp(double(phi_max_degrees), 0.0, 360.0) / 360.0 * kTwoPi;
+  const double phi_max = std::clamp(double(phi_max_degrees), 0.0, 360.0) / 360.0 * kTwoPiDouble;
   return std::make_shared<Cylinder>(object_to_world, reverse_orientation, radius, z_min, z_max,
                                     phi_max);
 }

@@ -29,7 +29,7 @@ class Disk final : public Quadric {
   bool contains(const Vec3d& p) const override {
     const double rho2 = p.x * p.x + p.y * p.y;
     if (!(rho2 <= r_ * r_) || rho2 < inner_ * inner_) return false;
-    return phi_max_ >= kTwoPi || positive_angle(p.y, p.x) <= phi_max_;
+    return phi_max_ >= kTwoPiDouble || positive_angle(p.y, p.x) <= phi_max_;
   }
   Vec3d point_at(const Vec2d& uv) const override {
     const double phi = uv.x * phi_max_, rho = r_ - uv.y * (r_ - inner_);
@@ -55,7 +55,7 @@ class Disk final : public Quadric {
     return std::max(0.0, 0.5 * phi_max_ * (r_ * r_ - inner_ * inner_));
   }
   Vec3d local_sample(const Vec2f& u) const override {
-    if (inner_ == 0.0 && phi_max_ >= kTwoPi) {
+    if (inner_ == 0.0 && phi_max_ >= kTwoPiDouble) {
       const Vec2f d = square_to_disk(u);
       return {r_ * d.x, r_ * d.y, height_};
     }
@@ -71,7 +71,7 @@ class Disk final : public Quadric {
 
 ShapePtr make_disk(const Transform& object_to_world, bool reverse_orientation, float height,
                    float radius, float inner_radius, float phi_max_degrees) {
-  const double phi_max = std::clamp(double(phi_max_degrees), 0.0, 360.0) / 360.0 * kTwoPi;
+  const double phi_max = std::clamp(double(phi_max_degrees), 0.0, 360.0) / 360.0 * kTwoPiDouble;
   return std::make_shared<Disk>(object_to_world, reverse_orientation, height, radius, inner_radius,
                                 phi_max);
 }

@@ -23,7 +23,7 @@ Vec3d transform_transposed(const Mat44d& m, const Vec3d& v) {
           v.x * m[1][0] + v.y * m[1][1] + v.z * m[1][2],
           v.x * m[2][0] + v.y * m[2][1] + v.z * m[2][2]};
 }
-Vec3d normalized_d(const Vec3d& v) {
+Vec3d unit_normal(const Vec3d& v) {
   return v / std::sqrt(v.dot(v));
 }
 
@@ -47,7 +47,7 @@ bool keeps_angles(const Mat44d& m) {
 
 double positive_angle(double y, double x) {
   const double phi = std::atan2(y, x);
-  return phi < 0.0 ? phi + kTwoPi : phi;
+  return phi < 0.0 ? phi + kTwoPiDouble : phi;
 }
 
 Quadric::Quadric(const Transform& object_to_world, bool reverse_orientation)
@@ -95,12 +95,12 @@ Vec3d Quadric::vector_to_object(const Vec3d& v) const {
 }
 
 Vec3f Quadric::world_normal(const Vec3d& n) const {
-  const Vec3d world = normalized_d(transform_transposed(to_object_, n));
+  const Vec3d world = unit_normal(transform_transposed(to_object_, n));
   return to_float(flip_ ? -world : world);
 }
 
 Vec3d Quadric::normal_to_object(const Vec3f& n) const {
-  return normalized_d(transform_transposed(to_world_, to_double(n)));
+  return unit_normal(transform_transposed(to_world_, to_double(n)));
 }
 
 Vec3f Quadric::world_point(const Vec3d& p, Vec3f* error) const {

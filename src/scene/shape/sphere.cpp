@@ -14,7 +14,7 @@ struct TangentCone {
     const double sin2 = sqr(r / d);
     one_minus_cos_max = sin2 / (1.0 + std::sqrt(std::max(0.0, 1.0 - sin2)));
   }
-  double pdf() const { return 1.0 / (kTwoPi * one_minus_cos_max); }
+  double pdf() const { return 1.0 / (kTwoPiDouble * one_minus_cos_max); }
 };
 
 class Sphere final : public Quadric {
@@ -26,7 +26,7 @@ class Sphere final : public Quadric {
     z_max_ = std::clamp(std::max(z_min, z_max), -r_, r_);
     theta_at_min_ = std::acos(z_min_ / r_);
     theta_at_max_ = std::acos(z_max_ / r_);
-    whole_ = z_min_ <= -r_ && z_max_ >= r_ && phi_max_ >= kTwoPi;
+    whole_ = z_min_ <= -r_ && z_max_ >= r_ && phi_max_ >= kTwoPiDouble;
     const double nearest_z = std::clamp(0.0, z_min_, z_max_);
     set_bounds(std::sqrt(std::max(0.0, r_ * r_ - nearest_z * nearest_z)), z_min_, z_max_, r_);
   }
@@ -48,7 +48,7 @@ class Sphere final : public Quadric {
   }
   bool contains(const Vec3d& p) const override {
     if ((z_min_ > -r_ && p.z < z_min_) || (z_max_ < r_ && p.z > z_max_)) return false;
-    return phi_max_ >= kTwoPi || positive_angle(p.y, p.x) <= phi_max_;
+    return phi_max_ >= kTwoPiDouble || positive_angle(p.y, p.x) <= phi_max_;
   }
   Vec3d point_at(const Vec2d& uv) const override {
     const double phi = uv.x * phi_max_;
@@ -127,7 +127,7 @@ std::optional<ShapeSample> Sphere::sample_towards(uint32_t primitive, const Vec3
   const double half = std::sqrt(std::max(0.0, r_ * r_ - sqr(cone.distance) * sin2_theta));
   const double t = cone.distance * cos_theta - half;
   const double across = t * std::sqrt(sin2_theta), along = t * cos_theta - cone.distance;
-  const double phi = kTwoPi * u.y;
+  const double phi = kTwoPiDouble * u.y;
 
   const Vec3d axis = o * (-1.0 / cone.distance);
   const Frame frame = Frame::from_z(
@@ -157,7 +157,7 @@ float Sphere::pdf_towards(uint32_t primitive, const Vec3f& from, const Vec3f& p,
 
 ShapePtr make_sphere(const Transform& object_to_world, bool reverse_orientation, float radius,
                      float z_min, float z_max, float phi_max_degrees) {
-  const double phi_max = std::clamp(double(phi_max_degrees), 0.0, 360.0) / 360.0 * kTwoPi;
+  const double phi_max = std::clamp(double(phi_max_degrees), 0.0, 360.0) / 360.0 * kTwoPiDouble;
   return std::make_shared<Sphere>(object_to_world, reverse_orientation, radius, z_min, z_max,
                                   phi_max);
 }

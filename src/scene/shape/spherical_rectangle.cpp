@@ -9,7 +9,7 @@ namespace {
 // Argument of a complex number in [0, 2 pi).
 double argument(double re, double im) {
   const double a = std::atan2(im, re);
-  return a < 0.0 ? a + kTwoPi : a;
+  return a < 0.0 ? a + kTwoPiDouble : a;
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ SphericalRectangle::SphericalRectangle(const Vec3d& from, const RectangleFrame& 
   // Only points above the rectangle see more than half of a hemisphere. Elsewhere such a value is a
   // slightly negative angle that wrapped around.
   const bool above = x0_ < 0.0 && x1_ > 0.0 && y0_ < 0.0 && y1_ > 0.0;
-  if (!above && solid_angle_ > 0.5 * kTwoPi) solid_angle_ = 0.0;
+  if (!above && solid_angle_ > 0.5 * kTwoPiDouble) solid_angle_ = 0.0;
 }
 
 Vec2f SphericalRectangle::sample(const Vec2f& u) const {

@@ -73,8 +73,8 @@ TEST(LensSystem, RaysGoBackTheWayTheyCame) {
   EXPECT_GT(passed, 20);
 }
 
-// Every point of the rear plane that passes light is within the pupil's bounds, also if the
-// stop's shape is rotated against them. The bounds are not much larger.
+// Every point of the rear plane that passes light is within the pupil's bounds, also if the stop's
+// shape is rotated against them. The bounds are not much larger.
 TEST(LensSystem, PupilBoundsHoldAllThatPasses) {
   for (const char* shape_name : {"", "star", "square"}) {
     const LensSystem lens(symmetric_surfaces(0.004), lens_stop(shape_name));

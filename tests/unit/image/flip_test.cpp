@@ -99,8 +99,7 @@ TEST(Flip, GreenAndBlueAreFurthestApart) {
   EXPECT_NEAR(mean(flip_errors(4, 4, plain(4, 4, {0, 1, 0}), plain(4, 4, {0, 0, 1}))), 1, 1e-3);
 }
 
-Picture gray_picture_of(const std::vector<std::string>& channels,
-                        const std::vector<float>& pixels) {
+Picture row_of_pixels(const std::vector<std::string>& channels, const std::vector<float>& pixels) {
   Picture picture;
   picture.channels = channels;
   picture.pixels = pixels;
@@ -114,7 +113,7 @@ Picture gray_picture_of(const std::vector<std::string>& channels,
 TEST(Flip, ColoursAsAScreenShowsThem) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const auto colors = display_colors(
-      gray_picture_of({"B", "Z", "G", "R"}, {0.1f, 9, 0.2f, 3, nan, 9, -1, 0.5f}), 0.5f);
+      row_of_pixels({"B", "Z", "G", "R"}, {0.1f, 9, 0.2f, 3, nan, 9, -1, 0.5f}), 0.5f);
   ASSERT_EQ(colors.size(), 2u);
   EXPECT_EQ(colors[0].r, 1);
   EXPECT_FLOAT_EQ(colors[0].g, 0.1f);
@@ -123,22 +122,22 @@ TEST(Flip, ColoursAsAScreenShowsThem) {
   EXPECT_EQ(colors[1].g, 0);
   EXPECT_EQ(colors[1].b, 0);
   // Full green of a wider space is outside sRGB: no red is left.
-  Picture wide = gray_picture_of({"R", "G", "B"}, {0, 0.5f, 0});
+  Picture wide = row_of_pixels({"R", "G", "B"}, {0, 0.5f, 0});
   wide.color_space = RgbColorSpace::find("rec2020");
   const Rgb green = display_colors(wide, 1)[0];
   EXPECT_EQ(green.r, 0);
   EXPECT_GT(green.g, 0.5f);
-  EXPECT_THROW(display_colors(gray_picture_of({"Y"}, {1}), 1), UsageError);
+  EXPECT_THROW(display_colors(row_of_pixels({"Y"}, {1}), 1), UsageError);
 }
 
 TEST(Flip, ExposureAndSizes) {
-  const Picture a = gray_picture_of({"R", "G", "B"}, {0.2f, 0.2f, 0.2f, 0.4f, 0.4f, 0.4f});
-  const Picture b = gray_picture_of({"R", "G", "B"}, {0.3f, 0.2f, 0.2f, 0.4f, 0.4f, 0.4f});
+  const Picture a = row_of_pixels({"R", "G", "B"}, {0.2f, 0.2f, 0.2f, 0.4f, 0.4f, 0.4f});
+  const Picture b = row_of_pixels({"R", "G", "B"}, {0.3f, 0.2f, 0.2f, 0.4f, 0.4f, 0.4f});
   EXPECT_EQ(flip(a, a, 1), 0);
   EXPECT_GT(flip(a, b, 1), 0);
   // Both are white at this exposure.
   EXPECT_EQ(flip(a, b, 10), 0);
-  EXPECT_THROW(flip(a, gray_picture_of({"R", "G", "B"}, {1, 1, 1}), 1), UsageError);
+  EXPECT_THROW(flip(a, row_of_pixels({"R", "G", "B"}, {1, 1, 1}), 1), UsageError);
 }
 
 }  // namespace

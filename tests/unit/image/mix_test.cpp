@@ -15,7 +15,7 @@ struct LayerValues {
   std::string name;
   std::vector<float> values;
 };
-Picture mixed_picture_of(const std::vector<LayerValues>& layers, Metadata metadata) {
+Picture layered_picture_of(const std::vector<LayerValues>& layers, Metadata metadata) {
   Picture picture;
   const size_t width = layers[0].values.size();
   picture.full_width = static_cast<int>(width);
@@ -38,31 +38,31 @@ Picture mixed_picture_of(const std::vector<LayerValues>& layers, Metadata metada
 const std::string kRoutes = "caustic = C.*DS+L : photons\nrest = .* : path\n";
 
 Picture by_light() {
-  return mixed_picture_of({{"", {3, 30}},
-                           {"caustic", {1, 10}},
-                           {"rest", {2, 20}},
-                           {"key", {2.5f, 5}},
-                           {"rim", {0.5f, 25}},
-                           {"mine", {9, 9}},
-                           {"albedo", {0.5f, 0.25f}},
-                           {"stderr", {0.1f, 0.1f}}},
-                          {{kRoutesKey, kRoutes},
-                           {kLayersByLightKey, "key = light key\nrim = light rim\n"},
-                           {"nephroid:seed", "4"}});
+  return layered_picture_of({{"", {3, 30}},
+                             {"caustic", {1, 10}},
+                             {"rest", {2, 20}},
+                             {"key", {2.5f, 5}},
+                             {"rim", {0.5f, 25}},
+                             {"mine", {9, 9}},
+                             {"albedo", {0.5f, 0.25f}},
+                             {"stderr", {0.1f, 0.1f}}},
+                            {{kRoutesKey, kRoutes},
+                             {kLayersByLightKey, "key = light key\nrim = light rim\n"},
+                             {"nephroid:seed", "4"}});
 }
 
 Picture by_both() {
-  return mixed_picture_of({{"", {3}},
-                           {"caustic", {1}},
-                           {"rest", {2}},
-                           {"caustic_key", {1}},
-                           {"rest_key", {1.5f}},
-                           {"rest_rim", {0.5f}}},
-                          {{kRoutesKey, kRoutes},
-                           {kLayersByLightKey,
-                            "caustic_key = route caustic, light key\n"
-                            "rest_key = route rest, light key\n"
-                            "rest_rim = route rest, light rim\n"}});
+  return layered_picture_of({{"", {3}},
+                             {"caustic", {1}},
+                             {"rest", {2}},
+                             {"caustic_key", {1}},
+                             {"rest_key", {1.5f}},
+                             {"rest_rim", {0.5f}}},
+                            {{kRoutesKey, kRoutes},
+                             {kLayersByLightKey,
+                              "caustic_key = route caustic, light key\n"
+                              "rest_key = route rest, light key\n"
+                              "rest_rim = route rest, light rim\n"}});
 }
 
 /// Red of a layer in each pixel; the picture's with "".
@@ -148,14 +148,14 @@ std::string refusal(const Picture& picture, const Mix& mix) {
 }
 
 TEST(Mix, WhatIsMissingIsSaid) {
-  const Picture plain = mixed_picture_of({{"", {1}}, {"caustic", {1}}}, {{kRoutesKey, kRoutes}});
+  const Picture plain = layered_picture_of({{"", {1}}, {"caustic", {1}}}, {{kRoutesKey, kRoutes}});
   const Mix light = {{{"key", {2, 2, 2}}}, {}}, route = {{}, {{"caustic", {2, 2, 2}}}};
   EXPECT_EQ(refusal(plain, light),
             "--light: the picture has no layers by light, expected one rendered with --layers "
             "lights or --layers both");
   EXPECT_NE(refusal(by_light(), {light.lights, route.routes}).find("--layers both"),
             std::string::npos);
-  EXPECT_NE(refusal(mixed_picture_of({{"", {1}}}, {}), route).find("no layers by route"),
+  EXPECT_NE(refusal(layered_picture_of({{"", {1}}}, {}), route).find("no layers by route"),
             std::string::npos);
   EXPECT_EQ(refusal(by_light(), {{{"Key", {2, 2, 2}}}, {}}),
             "--light: the picture has no light 'Key', expected one of: key, rim, did you mean "

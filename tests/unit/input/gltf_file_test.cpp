@@ -137,6 +137,8 @@ TEST(GltfFile, BracketsAreCountedWhereTheyAreOpenAndOutsideOfStrings) {
             "scene.gltf: the JSON text is nested more than 200 levels deep, expected fewer");
   EXPECT_EQ(extras("[" + nested(198) + "," + nested(198) + "]"), "");
   EXPECT_EQ(extras("\"" + std::string(300, '[') + "\\\"" + std::string(300, '{') + "\""), "");
+  // The string ends behind an escaped backslash, so what follows is open.
+  EXPECT_NE(extras("[\"\\\\\"," + nested(199) + "]"), "");
 }
 
 TEST(GltfFile, ExtensionsThatAreRequiredMustBeKnown) {

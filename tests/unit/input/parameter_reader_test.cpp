@@ -13,7 +13,7 @@ namespace {
 using testing::error_of;
 using testing::parse_warnings;
 
-std::vector<Parameter> read_parameters(const std::string& text) {
+std::vector<Parameter> parameters_in(const std::string& text) {
   SceneFiles files;
   TokenStream tokens(files);
   tokens.open_text(text, "f");
@@ -21,12 +21,12 @@ std::vector<Parameter> read_parameters(const std::string& text) {
   return read_parameters(tokens, "rec2020", diagnostics);
 }
 Parameter read_one(const std::string& text) {
-  const std::vector<Parameter> parameters = read_parameters(text);
+  const std::vector<Parameter> parameters = parameters_in(text);
   EXPECT_EQ(parameters.size(), 1u) << text;
   return parameters.at(0);
 }
 std::string error_in(const std::string& text) {
-  return error_of([&] { read_parameters(text); });
+  return error_of([&] { parameters_in(text); });
 }
 
 using Numbers = std::vector<double>;
@@ -91,16 +91,16 @@ TEST(ParameterReader, ReadsBoolsWithAndWithoutQuotes) {
 
 TEST(ParameterReader, ReadsListsUpToTheNextWord) {
   const std::vector<Parameter> p =
-      read_parameters("\"float a\" 1 # comment\n \"string b\" [\"c\"]\nShape \"x\"");
+      parameters_in("\"float a\" 1 # comment\n \"string b\" [\"c\"]\nShape \"x\"");
   ASSERT_EQ(p.size(), 2u);
   EXPECT_EQ(p[1].name, "b");
   EXPECT_EQ(p[1].where.to_string(), "f:2:2");
-  EXPECT_TRUE(read_parameters("").empty());
-  EXPECT_TRUE(read_parameters("Shape").empty());
+  EXPECT_TRUE(parameters_in("").empty());
+  EXPECT_TRUE(parameters_in("Shape").empty());
 }
 
 TEST(ParameterReader, TheLastOfTwoCounts) {
-  const std::vector<Parameter> p = read_parameters("\"float a\" 1 \"float b\" 2 \"integer a\" 3");
+  const std::vector<Parameter> p = parameters_in("\"float a\" 1 \"float b\" 2 \"integer a\" 3");
   ASSERT_EQ(p.size(), 2u);
   EXPECT_EQ(p[0].name, "b");
   EXPECT_EQ(p[1].type, "integer");

@@ -8,21 +8,10 @@
 #include "core/warps.h"
 #include "input/pbrt_parser.h"
 #include "scene/scene.h"
+#include "unit/scene/numbers.h"
 
 namespace nephroid {
 namespace {
-
-struct CurveNumbers {
-  uint64_t state;
-  float operator()() {
-    return bits_to_unit_float(
-        static_cast<uint32_t>(mix_bits(++state * 0x9e3779b97f4a7c15ull) >> 32));
-  }
-  Vec3f in_box(float half) {
-    const float x = (*this)(), y = (*this)();
-    return (Vec3f(x, y, (*this)()) * 2.0f - Vec3f(1.0f)) * half;
-  }
-};
 
 struct Built {
   Diagnostics diagnostics;
@@ -45,7 +34,7 @@ std::string curve_error(const std::string& world) {
 
 /// Random curves in the unit box, of every basis and degree.
 std::string tangle(const std::string& type, int count) {
-  CurveNumbers u{7};
+  Numbers u{7};
   std::string text;
   const bool ribbon = type == "ribbon";
   for (int i = 0; i < count; ++i) {
@@ -54,15 +43,15 @@ std::string tangle(const std::string& type, int count) {
     text += "Shape \"curve\" \"string type\" \"" + type + "\" \"string basis\" \"" +
             (spline ? "bspline" : "bezier") + "\" \"integer degree\" " + std::to_string(degree) +
             " \"point3 P\" [";
-    Vec3f p = u.in_box(0.5f);
-    for (int k = 0; k < points; ++k, p += u.in_box(0.4f))
+    Vec3f p = u.in_cube(0.5f);
+    for (int k = 0; k < points; ++k, p += u.in_cube(0.4f))
       text += " " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z);
     text += " ] \"float width0\" 0.04 \"float width1\" 0.01";
     if (ribbon) {
       text += " \"normal N\" [";
       const int ends = spline ? points - degree + 1 : (points - 1) / degree + 1;
       for (int k = 0; k < ends; ++k) {
-        const Vec3f n = u.in_box(1.0f) + Vec3f(0, 0, 1.5f);
+        const Vec3f n = u.in_cube(1.0f) + Vec3f(0, 0, 1.5f);
         text += " " + std::to_string(n.x) + " " + std::to_string(n.y) + " " + std::to_string(n.z);
       }
       text += " ]";
@@ -99,13 +88,13 @@ TEST(CurveTracing, AgreesWithRecursiveSubdivision) {
     const Built built(tangle(type, 30));
     const Scene& scene = *built.scene;
     EXPECT_EQ(scene.shape_count, 1u);
-    CurveNumbers u{31};
+    Numbers u{31};
     int hits = 0, missed = 0, elsewhere = 0, shadows = 0;
     constexpr int kRays = 3000;
     for (int i = 0; i < kRays; ++i) {
       Ray ray;
-      ray.d = normalize(u.in_box(1.0f)) * (0.2f + u());
-      ray.o = u.in_box(0.7f) - ray.d * (3.0f / length(ray.d));
+      ray.d = normalize(u.in_cube(1.0f)) * (0.2f + u());
+      ray.o = u.in_cube(0.7f) - ray.d * (3.0f / length(ray.d));
       const auto expected = brute_force(scene, ray);
       SurfaceInteraction found;
       const bool hit = scene.intersect(ray, found);
@@ -146,12 +135,12 @@ TEST(CurveTracing, CurvesAlikeShareAGeometryAndNothingElse) {
   }
   const Built separate(apart);
   EXPECT_EQ(separate.scene->top.records.size(), 24u);
-  CurveNumbers u{5};
+  Numbers u{5};
   int hits = 0;
   for (int i = 0; i < 2000; ++i) {
     Ray ray;
-    ray.d = normalize(u.in_box(1.0f));
-    ray.o = u.in_box(0.7f) - ray.d * 3.0f;
+    ray.d = normalize(u.in_cube(1.0f));
+    ray.o = u.in_cube(0.7f) - ray.d * 3.0f;
     SurfaceInteraction a, b;
     const bool hit = together.scene->intersect(ray, a);
     ASSERT_EQ(hit, separate.scene->intersect(ray, b));

@@ -12,21 +12,10 @@
 #include "input/pbrt_parser.h"
 #include "input/transform_directives.h"
 #include "scene/scene.h"
+#include "unit/scene/numbers.h"
 
 namespace nephroid {
 namespace {
-
-struct MotionNumbers {
-  uint64_t state;
-  float operator()() {
-    return bits_to_unit_float(
-        static_cast<uint32_t>(mix_bits(++state * 0x9e3779b97f4a7c15ull) >> 32));
-  }
-  Vec3f in_cube(float half) {
-    const float x = (*this)(), y = (*this)(), z = (*this)();
-    return (Vec3f(x, y, z) * 2.0f - Vec3f(1, 1, 1)) * half;
-  }
-};
 
 std::unique_ptr<Scene> scene_of(const std::string& world, Diagnostics& diagnostics,
                                 const std::string& options = "") {
@@ -74,7 +63,7 @@ constexpr char kPatch[] =
 /// rounding.
 template <class Still>
 void expect_same_pictures(const Scene& scene, const Still& still, float size) {
-  MotionNumbers u{77};
+  Numbers u{77};
   int met = 0, different = 0;
   for (int k = 0; k <= 16; ++k) {
     const float time = static_cast<float>(k) / 16.0f;
@@ -259,7 +248,7 @@ TEST(MotionBlur, AWheelCoversARayByTheAnglesOfItsSpokes) {
 // breaks.
 TEST(MotionBlur, AMotionThroughAFlatPictureIsTraced) {
   const auto scene = scene_of(moving(Mat44d(), scale_matrix({-1, 1, 1})) + kMesh);
-  MotionNumbers u{5};
+  Numbers u{5};
   for (int i = 0; i < 2000; ++i) {
     Ray ray;
     ray.o = u.in_cube(3);
@@ -286,7 +275,7 @@ TEST(MotionBlur, ManyThreadsSeeTheSameBits) {
     parallel_chunks(static_cast<int64_t>(bits.size()), 64,
                     [&](int64_t, int64_t begin, int64_t end) {
                       for (int64_t i = begin; i < end; ++i) {
-                        MotionNumbers u{static_cast<uint64_t>(i) * 1000};
+                        Numbers u{static_cast<uint64_t>(i) * 1000};
                         Ray ray;
                         ray.o = u.in_cube(8);
                         ray.d = u.in_cube(3) - ray.o;
@@ -322,7 +311,7 @@ TEST(MotionBlur, RaysNeverMeetTheMovingSurfaceTheyLeave) {
                                   moving(Mat44d(), turned(80, {0, 1, 0}) * moved(0, 1, 0)) + shape +
                                   "ObjectEnd " + motion + "ObjectInstance \"o\""
                             : motion + shape);
-        MotionNumbers u{99};
+        Numbers u{99};
         int landed = 0, again = 0;
         for (int i = 0; i < 40000; ++i) {
           Ray ray;

@@ -6,6 +6,7 @@
 #include "core/warps.h"
 #include "input/pbrt_parser.h"
 #include "scene/scene.h"
+#include "unit/scene/numbers.h"
 
 namespace nephroid {
 namespace {
@@ -15,18 +16,6 @@ std::unique_ptr<Scene> scene_with(const std::string& world) {
   return build_scene(parse_pbrt_string("WorldBegin\n" + world, "t.pbrt", ".", diagnostics), {},
                      diagnostics);
 }
-
-struct OrientationNumbers {
-  uint64_t state;
-  float operator()() {
-    return bits_to_unit_float(
-        static_cast<uint32_t>(mix_bits(++state * 0x9e3779b97f4a7c15ull) >> 32));
-  }
-  Vec2f pair() {
-    const float x = (*this)();
-    return {x, (*this)()};
-  }
-};
 
 /// A transform, and its text in the scene format.
 struct Map {
@@ -109,7 +98,7 @@ std::vector<std::string> placed(const std::string& shape, const std::string& map
               "\nAttributeEnd\n"};
 }
 
-Ray random_ray(OrientationNumbers& u) {
+Ray random_ray(Numbers& u) {
   Ray ray;
   ray.o = square_to_sphere(u.pair()) * 6.0f;
   ray.d = square_to_sphere(u.pair()) * 0.5f - ray.o;
@@ -128,7 +117,7 @@ TEST(Orientation, OfAShapeIsAwayFromItUnlessReversed) {
     SCOPED_TRACE(c.name);
     for (const bool reverse : {false, true}) {
       const auto scene = scene_with((reverse ? "ReverseOrientation\n" : "") + c.shape);
-      OrientationNumbers u{7};
+      Numbers u{7};
       int hits = 0;
       for (int i = 0; i < 500; ++i) {
         SurfaceInteraction hit;
@@ -151,7 +140,7 @@ TEST(Orientation, IsMappedAsNormalsAre) {
         for (const std::string& world : placed(reverse + c.shape, map.text)) {
           SCOPED_TRACE(world);
           const auto scene = scene_with(world);
-          OrientationNumbers u{11};
+          Numbers u{11};
           int hits = 0, differing = 0;
           for (int i = 0; i < 300; ++i) {
             const Ray ray = random_ray(u);
@@ -189,7 +178,7 @@ TEST(Orientation, MirroredLampsShineOutwards) {
         SCOPED_TRACE(world);
         const auto scene = scene_with(world);
         const Vec3f middle = map.transform.point({0, 0, 0});
-        OrientationNumbers u{13};
+        Numbers u{13};
         for (int i = 0; i < 200; ++i) {
           // Paths that hit the lamp, next-event estimation and photons agree on the emitting side.
           const Ray ray = mapped(random_ray(u), map.transform);

@@ -6,17 +6,10 @@
 #include "core/warps.h"
 #include "input/pbrt_parser.h"
 #include "scene/scene.h"
+#include "unit/scene/numbers.h"
 
 namespace nephroid {
 namespace {
-
-struct RayNumbers {
-  uint64_t state;
-  float operator()() {
-    return bits_to_unit_float(
-        static_cast<uint32_t>(mix_bits(++state * 0x9e3779b97f4a7c15ull) >> 32));
-  }
-};
 
 // Shoots rays at the plane `y = height` from above, and others away from their hits.
 void expect_no_self_hits(const std::string& world, float size, float height) {
@@ -24,7 +17,7 @@ void expect_no_self_hits(const std::string& world, float size, float height) {
   const SceneDescription d =
       parse_pbrt_string("WorldBegin\n" + world, "test.pbrt", ".", diagnostics);
   const auto scene = build_scene(d, {}, diagnostics);
-  RayNumbers u{12345};
+  Numbers u{12345};
   int landed = 0, again = 0;
   for (int i = 0; i < 20000; ++i) {
     Ray ray;
