@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
 #include "input/spelling.h"
@@ -192,8 +191,7 @@ void DescriptionBuilder::add_defaults(AttributeTarget target, ParameterSet& para
 
 void DescriptionBuilder::set_color_space(const std::string& name,
                                          const SourceLocation& name_where) {
-  std::string lower = name;
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string lower = lower_case(name);
   const std::vector<std::string>& names = color_space_names();
   if (std::find(names.begin(), names.end(), lower) == names.end()) {
     throw SceneError(name_where,

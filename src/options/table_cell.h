@@ -1,4 +1,4 @@
-// What the generated pages of several tables share: the text of a table cell.
+// Cells of the tables in generated pages.
 #pragma once
 
 #include <string>

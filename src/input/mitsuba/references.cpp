@@ -7,7 +7,7 @@
 namespace nephroid::mitsuba {
 namespace {
 
-constexpr int kMaxReferenceDepth = 128;  ///< of objects in objects, through references
+constexpr int kMaxReferenceDepth = 128;  ///< objects within each other, also by reference
 
 /// A walk over all objects, each once. The depth of an object is that of what it holds, so that
 /// chains of references are found wherever the walk meets them first.

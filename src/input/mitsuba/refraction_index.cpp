@@ -1,7 +1,5 @@
 #include "input/mitsuba/refraction_index.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <vector>
 
@@ -29,9 +27,7 @@ constexpr Substance kSubstances[] = {
 };
 
 double index_of(const std::string& name, const SourceLocation& where) {
-  std::string lower(trimmed(name));
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lower_case(trimmed(name));
   std::vector<std::string> known;
   for (const Substance& s : kSubstances) {
     if (lower == s.name) return s.index;

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <new>
 
 #include "input/file_bytes.h"
+#include "input/spelling.h"
 #include "scene/texture/image_input.h"
 #include "scene/texture/paged_image.h"
 
@@ -60,10 +60,7 @@ void image_is_unreadable(const std::string& path, std::string reason,
 }
 
 bool image_obeys_encoding(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".png";
+  return lower_case(std::filesystem::path(path).extension().string()) == ".png";
 }
 
 namespace {
