@@ -145,6 +145,19 @@ class LightWalkVisitor {
     photon.events = static_cast<uint16_t>(walk.events);
     return photon;
   }
+  /// The same at a collision in a medium.
+  Photon photon_at(const Walk& walk, const MediumVertex& v, const SampledSpectrum& flux) const {
+    Photon photon;
+    photon.p = v.p;
+    photon.wi = PackedDirection(v.wo);
+    photon.flux = PackedSpectrum(flux * walk.throughput);
+    photon.state = state_;
+    photon.left = static_cast<int8_t>(walk.lambda.left());
+    photon.lamp = lamp_;
+    photon.events = static_cast<uint16_t>(walk.events);
+    photon.medium = static_cast<int16_t>(v.medium.index());
+    return photon;
+  }
   /// True if an eye path may have an event of a class in `classes_of(label)` here. At a mix of
   /// materials the eye path may choose another one, so all labels count.
   template <class ClassesOf>

@@ -19,6 +19,8 @@ struct Photon {
   uint16_t events = 0;            ///< scattering events before this vertex
   Lamp lamp = 0;                  ///< lamp that emitted it; not kept in files
   Caster caster = Caster::kNone;  ///< smoothest caster it passed (CasterRule); not kept in files
+  /// Index of the medium in which it collided; -1: it lies on a surface. Not kept in files.
+  int16_t medium = -1;
   /// PartialMisWeights, if other techniques find the path, too. These are squares of areas; their
   /// roots stay in the range of a float in any unit of length.
   float root_of_cut_here = 0, root_of_cuts_before = 0;

@@ -4,22 +4,13 @@
 #include <numeric>
 
 #include "core/sampler.h"
+#include "photon/morton.h"
 
 namespace nephroid {
 
 namespace {
 
 constexpr uint32_t kMaxCoordinate = (1u << PhotonGrid::kCoordinateBits) - 1;
-
-// Spreads the low 21 bits so that two zero bits follow each.
-uint64_t spread_bits(uint64_t v) {
-  v &= 0x1fffff;
-  v = (v | (v << 32)) & 0x1f00000000ffffull;
-  v = (v | (v << 16)) & 0x1f0000ff0000ffull;
-  v = (v | (v << 8)) & 0x100f00f00f00f00full;
-  v = (v | (v << 4)) & 0x10c30c30c30c30c3ull;
-  return (v | (v << 2)) & 0x1249249249249249ull;
-}
 
 /// Number of cells of 2^shift quanta with a photon, for each shift; `codes` are sorted.
 std::array<size_t, PhotonGrid::kCoordinateBits + 1> count_cells(
@@ -133,7 +124,7 @@ std::vector<uint64_t> PhotonGrid::sort(std::vector<uint32_t>* order_of_all) {
   std::vector<uint32_t> order(n), order_other(n);
   for (size_t i = 0; i < n; ++i) {
     const Vec3f& p = photons_[i].p;
-    for (int axis = 0; axis < 3; ++axis) codes[i] |= spread_bits(quantize(p[axis], axis)) << axis;
+    codes[i] = morton_code(quantize(p.x, 0), quantize(p.y, 1), quantize(p.z, 2));
   }
   std::iota(order.begin(), order.end(), 0u);
   constexpr int kDigit = 11;

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "photon/photon_grid.h"
+#include "photon/photon_maps.h"
 #include "transport/walk_record.h"
 
 namespace nephroid {
@@ -23,22 +23,24 @@ class PhotonHistories {
   /// Traces it again with a record.
   using Record = std::function<LightPathRecord(int64_t number)>;
 
-  /// Traces the light paths 0 to `count` - 1.
-  PhotonHistories(int64_t count, const Trace& trace, Record record)
-      : PhotonHistories(traced(count, trace), std::move(record)) {}
+  /// Traces the light paths 0 to `count` - 1. `radius_at` as in MediumPhotons,
+  /// not needed if no photons are in media.
+  PhotonHistories(int64_t count, const Trace& trace, Record record,
+                  const std::function<float(const Vec3f&)>& radius_at = {})
+      : PhotonHistories(traced(count, trace), std::move(record), radius_at) {}
 
-  const PhotonGrid& grid() const { return grid_; }
-  /// The light path that left a photon of the grid.
+  const PhotonMaps& maps() const { return maps_; }
+  /// The light path that left a photon of the maps.
   const LightPathRecord& of(const Photon& photon) {
-    const int64_t number = paths_[order_[&photon - grid_.photons().data()]];
+    const int64_t number = paths_[maps_.place_of(photon)];
     const auto known = records_.find(number);
     return known != records_.end() ? known->second
                                    : records_.emplace(number, record_(number)).first->second;
   }
 
  private:
-  PhotonHistories(Traced traced, Record record)
-      : grid_(std::move(traced.photons), &order_),
+  PhotonHistories(Traced traced, Record record, const std::function<float(const Vec3f&)>& radius_at)
+      : maps_(std::move(traced.photons), radius_at, true),
         paths_(std::move(traced.paths)),
         record_(std::move(record)) {}
   static Traced traced(int64_t count, const Trace& trace) {
@@ -50,8 +52,7 @@ class PhotonHistories {
     return all;
   }
 
-  std::vector<uint32_t> order_;  ///< [photon of the grid]: its place before it was sorted
-  PhotonGrid grid_;
+  PhotonMaps maps_;
   std::vector<int64_t> paths_;
   Record record_;
   std::unordered_map<int64_t, LightPathRecord> records_;

@@ -20,6 +20,7 @@ EventSummary EventSummary::after(EventClass event) const {
   EventSummary next = *this;
   next.count = std::min(count + 1, 2);
   next.any_rough |= !specular;
+  next.volume_before_rough |= !any_rough && event == EventClass::kVolume;
   next.any_surface |= is_surface;
   next.any_volume |= event == EventClass::kVolume;
   if (count == 0) next.first_specular = specular;

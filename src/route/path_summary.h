@@ -13,10 +13,11 @@ enum class FirstRoughPair : uint8_t { kNone, kFirst, kBoth, kNever };
 
 /// The events of a path, eye first.
 struct EventSummary {
-  int count = 0;             ///< number of events; 2 stands for two or more
-  bool any_rough = false;    ///< an event that is no S
-  bool any_surface = false;  ///< a D or a G
-  bool any_volume = false;   ///< a V
+  int count = 0;                     ///< number of events; 2 stands for two or more
+  bool any_rough = false;            ///< an event that is no S
+  bool any_surface = false;          ///< a D or a G
+  bool any_volume = false;           ///< a V
+  bool volume_before_rough = false;  ///< the first event that is no S is a V
   bool first_specular = false, last_specular = false;
   bool rough_pair = false;  ///< two events in a row that are no S
   FirstRoughPair first_pair = FirstRoughPair::kNone;

@@ -8,12 +8,18 @@ std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at
   const Vec2f u = sampler.get_2d();
   const std::optional<LightChoice> choice = scene.light_sampler->sample(at.p, at.ns, u_light);
   if (!choice) return std::nullopt;
-  const Light& light = *scene.lights[choice->light];
+  return sample_direct(scene, at, *choice, u, lambda);
+}
+
+std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at,
+                                          LightChoice choice, const Vec2f& u,
+                                          const SampledWavelengths& lambda) {
+  const Light& light = *scene.lights[choice.light];
   const std::optional<LightSample> s = light.sample_towards(at.p, u, lambda);
   if (!s || !(s->pdf_w > 0.0f) || s->radiance.is_black()) return std::nullopt;
   DirectSample d;
-  d.light = choice->light;
-  d.pdf_w = choice->pdf_p * s->pdf_w;
+  d.light = choice.light;
+  d.pdf_w = choice.pdf_p * s->pdf_w;
   d.radiance = s->radiance / d.pdf_w;
   d.wi_world = s->wi;
   d.delta = s->delta;

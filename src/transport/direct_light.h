@@ -3,7 +3,7 @@
 // lines. It must not know routes or films.
 #pragma once
 
-#include "transport/random_walk.h"
+#include "transport/walk.h"
 
 namespace nephroid {
 
@@ -38,6 +38,11 @@ struct DirectSample {
 /// Samples a light and a point on it. Empty if no light can arrive.
 std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at,
                                           const SampledWavelengths& lambda, PathSampler& sampler);
+
+/// The same for a light that was chosen with the probability `pdf_p`.
+std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at,
+                                          LightChoice choice, const Vec2f& u,
+                                          const SampledWavelengths& lambda);
 
 /// Transmittance from a vertex to its light sample, media included, with the densities of both
 /// techniques ([V5]). Random numbers come from the sampler's current dimension.

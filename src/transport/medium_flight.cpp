@@ -1,5 +1,6 @@
 #include "transport/medium_flight.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -80,7 +81,28 @@ bool survives(SampledSpectrum& through, float carried, FlightRandom& random) {
   return true;
 }
 
-constexpr auto kGrey = [](const SampledSpectrum& sigma) { return sigma.max_component(); };
+/// Emission of a uniform medium towards the origin of a way of which `through` gets through.
+SampledSpectrum uniform_emission(const MediumProperties& m, const SampledSpectrum& through) {
+  const SampledSpectrum sigma_t = extinction(m);
+  SampledSpectrum emitted;
+  for (int i = 0; i < kSpectrumSamples; ++i)
+    if (sigma_t[i] > 0.0f) emitted.set(i, m.le[i] * (m.sigma_a[i] / sigma_t[i]) * (1 - through[i]));
+  return emitted;
+}
+
+/// Factor of the majorants at which emission along a ray is looked up about eight times, however
+/// thin the medium is.
+float emission_rate(MajorantIterator pieces) {
+  constexpr float kLookups = 8.0f, kMost = 1024.0f;
+  float depth = 0;
+  while (const auto piece = pieces.next()) {
+    const float sigma = piece->sigma_maj.max_component();
+    if (sigma > 0.0f) depth += sigma * (piece->t_max - piece->t_min);
+    if (!(depth < kLookups)) return 1.0f;
+  }
+  return depth > 0.0f ? std::min(kLookups / depth, kMost) : 1.0f;
+}
+
 constexpr auto kHero = [](const SampledSpectrum& sigma) { return sigma[0]; };
 
 }  // namespace
@@ -90,21 +112,20 @@ SampledSpectrum attenuation(const Medium& medium, const Ray& ray, float t_max,
                             SampledSpectrum* emitted) {
   if (const auto sigma = medium.uniform_extinction(lambda)) {
     const SampledSpectrum through = beer(*sigma, t_max);
-    if (emitted && medium.is_emissive()) {
-      // Emission of the absorbed share of the extinction.
-      const MediumProperties m = medium.at(ray.o, lambda);
-      for (int i = 0; i < kSpectrumSamples; ++i)
-        if ((*sigma)[i] > 0.0f)
-          emitted->set(i,
-                       (*emitted)[i] + m.le[i] * (m.sigma_a[i] / (*sigma)[i]) * (1 - through[i]));
-    }
+    if (emitted && medium.is_emissive())
+      *emitted += uniform_emission(medium.at(ray.o, lambda), through);
     return through;
   }
   SampledSpectrum through(1.0f);
-  Steps steps(medium.majorants(ray, t_max, lambda), random);
-  while (steps.next(kGrey, [](const SampledSpectrum&, float) {})) {
+  const MajorantIterator pieces = medium.majorants(ray, t_max, lambda);
+  const float factor = emitted ? emission_rate(pieces) : 1.0f;
+  const auto rate_of = [factor](const SampledSpectrum& sigma) {
+    return factor * sigma.max_component();
+  };
+  Steps steps(pieces, random);
+  while (steps.next(rate_of, [](const SampledSpectrum&, float) {})) {
     const MediumProperties m = medium.at(ray.o + ray.d * steps.t(), lambda);
-    const float rate = steps.majorant().max_component();
+    const float rate = rate_of(steps.majorant());
     if (emitted) *emitted += through * m.sigma_a * m.le * (1.0f / rate);
     through *= positive_part(SampledSpectrum(rate) - extinction(m)) * (1.0f / rate);
     if (!survives(through, through.max_component(), random)) return SampledSpectrum(0.0f);
@@ -136,19 +157,20 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
     return t;
   };
   const bool uniform = medium.uniform_extinction(lambda).has_value();
-  const bool emissive = medium.is_emissive();
+  if (medium.is_emissive()) {  // [V4]
+    SpectralDensity here = density;
+    here.take_means(lambda);
+    SampledSpectrum glow;
+    FlightRandom of_glow = random.fork();
+    attenuation(medium, ray, t_max, lambda, of_glow, &glow);
+    emitted += throughput * glow / here.u_mean;
+  }
   Steps steps(medium.majorants(ray, t_max, lambda), random);
   while (steps.next(kHero, passed)) {
     const MediumProperties m = medium.at(ray.o + ray.d * steps.t(), lambda);
     const SampledSpectrum& majorant = steps.majorant();
     const SampledSpectrum t = relative();
     const SampledSpectrum sigma_t = extinction(m);
-    if (emissive) {  // [V4]
-      SpectralDensity here = density;
-      here.u *= t * majorant / majorant[0];
-      here.take_means(lambda);
-      emitted += throughput * t * m.sigma_a * m.le * (1.0f / (majorant[0] * here.u_mean));
-    }
     const float p_real = std::min(sigma_t[0] / majorant[0], 1.0f);
     if (uniform || random.next() < p_real) {  // [V2]
       throughput *= t * m.sigma_s / sigma_t[0];
@@ -218,6 +240,30 @@ std::optional<Collision> fly_per_wavelength(const Medium& medium, const Ray& ray
   }
   if (steps.given_up()) return end();
   return std::nullopt;
+}
+
+FlightTransmittance::FlightTransmittance(const Medium& medium, const Ray& ray, float t_max,
+                                         const SampledWavelengths& lambda, FlightRandom& random)
+    : uniform_(medium.uniform_extinction(lambda)) {
+  if (uniform_) return;
+  SampledSpectrum through(1.0f);
+  const auto rate_of = [](const SampledSpectrum& sigma) { return sigma.max_component(); };
+  Steps steps(medium.majorants(ray, t_max, lambda), random);
+  while (steps.next(rate_of, [](const SampledSpectrum&, float) {})) {
+    const MediumProperties m = medium.at(ray.o + ray.d * steps.t(), lambda);
+    const float rate = rate_of(steps.majorant());
+    through *= positive_part(SampledSpectrum(rate) - extinction(m)) * (1.0f / rate);
+    const bool goes_on = survives(through, through.max_component(), random);
+    steps_.push_back({steps.t(), goes_on ? through : SampledSpectrum(0.0f)});
+    if (!goes_on) return;
+  }
+}
+
+SampledSpectrum FlightTransmittance::at(float t) const {
+  if (uniform_) return beer(*uniform_, t);
+  const auto after = std::partition_point(steps_.begin(), steps_.end(),
+                                          [t](const Step& step) { return step.t <= t; });
+  return after == steps_.begin() ? SampledSpectrum(1.0f) : std::prev(after)->through;
 }
 
 void cross(const Medium& medium, const Ray& ray, float t_max, const SampledWavelengths& lambda,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/sampler.h"
 #include "scene/medium/medium.h"
@@ -25,8 +26,12 @@ class FlightRandom {
     state_ += 0x9e3779b97f4a7c15ull;
     return bits_to_unit_float(static_cast<uint32_t>(mix_bits(state_) >> 32));
   }
+  /// Other numbers, for something beside the flight: from a hash, but for the first one, if it is
+  /// given. Two forks differ if next() was called between them more than once.
+  FlightRandom fork(float first = -1.0f) const { return {first, hash_combine(state_, kFork)}; }
 
  private:
+  static constexpr uint64_t kFork = 0x666f726b;  // "fork"
   float first_ = -1.0f;
   uint64_t state_ = 0;
 };
@@ -72,6 +77,24 @@ std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
 std::optional<Collision> fly_per_wavelength(const Medium& medium, const Ray& ray, float t_max,
                                             const SampledWavelengths& lambda, FlightRandom& random,
                                             SampledSpectrum& throughput);
+
+/// Transmittance from the origin of a ray of unit direction to each point before `t_max`, unbiased
+/// at each wavelength by itself: in closed form if the extinction is uniform, else by one run of
+/// ratio tracking, which all points share. Its arguments must outlive it.
+class FlightTransmittance {
+ public:
+  FlightTransmittance(const Medium& medium, const Ray& ray, float t_max,
+                      const SampledWavelengths& lambda, FlightRandom& random);
+  SampledSpectrum at(float t) const;
+
+ private:
+  struct Step {
+    float t;
+    SampledSpectrum through;  ///< from here on
+  };
+  std::optional<SampledSpectrum> uniform_;
+  std::vector<Step> steps_;
+};
 
 /// The result of a shadow ray: its transmittance and both techniques' densities, over the density
 /// with which it was sampled ([V5]).

@@ -5,6 +5,7 @@
 
 #include <cassert>
 
+#include "transport/flight_light.h"
 #include "transport/subsurface_walk.h"
 #include "transport/walk.h"
 
@@ -34,6 +35,16 @@ namespace nephroid {
 ///   static constexpr bool kEndsAtBranches   true: the walk itself ends there
 ///   float survival(const WalkVertex&)       survival probability here, asked before `vertex`;
 ///                                           1: no roulette
+///   bool looks_along(const Medium&)         true if its path may end in a light behind a V here.
+///                                           Then light_along() takes the place of next-event
+///                                           estimation where medium_vertex() is lit_along
+///   bool gathers_in(const Medium&)          true if the visitor gathers photons along the flight,
+///                                           which does not scatter then. Direct light comes to
+///                                           light_along(), in any medium
+///   void gather_along(const Walk&, const Medium&, float t_max, FlightRandom&)
+///   void light_along(const Walk&, const FlightLight&, PathSampler&)
+///                                           direct light of a flight. The walk's throughput is
+///                                           that at the point, its density that before the flight
 /// `mode` is the quantity that the throughput carries. In kImportance it includes the correction
 /// for shading normals (Veach 1997, section 5.3).
 template <class Visitor>
@@ -80,8 +91,19 @@ class RandomWalk {
       flight_vertex_ = walk_.vertices;
       sampler_.start_dimension(walk_.vertex_dimension() + dimensions::kFlight);
       const uint64_t seed = sampler_.stream_seed();
-      flight_random_ = FlightRandom(sampler_.get_1d(), seed);
+      const float u = sampler_.get_1d();
+      flight_random_ = FlightRandom(u, seed);
+      constexpr uint64_t kLight = 0x6c69676874;  // "light"
+      light_random_ = FlightRandom(mirrored(u), hash_combine(seed, kLight));
     }
+    if constexpr (requires { visitor_.gathers_in(medium); })
+      if (walk_.events < max_events_ && visitor_.gathers_in(medium)) {
+        // Merging takes more time than all of these shadow rays.
+        constexpr int kSamples = 4;
+        light_along(medium, distance, kSamples);
+        FlightRandom random = flight_random_.fork();
+        visitor_.gather_along(walk_, medium, distance, random);
+      }
     SampledSpectrum emitted;
     const bool glows = medium.is_emissive() && !walk_.per_wavelength;
     if (medium.is_purely_absorbing() || !visitor_.scatters_in(medium)) {
@@ -94,6 +116,7 @@ class RandomWalk {
       walk_.throughput *= through;
       return std::nullopt;
     }
+    if (walk_.events < max_events_ && is_lit_along(medium)) light_along(medium, distance, 1);
     if (walk_.per_wavelength)
       return fly_per_wavelength(medium, walk_.ray, distance, walk_.lambda, flight_random_,
                                 walk_.throughput);
@@ -105,11 +128,48 @@ class RandomWalk {
     return collision;
   }
 
+  /// True if the visitor takes direct light along flights through the medium.
+  bool is_lit_along(const Medium& medium) {
+    if constexpr (requires { visitor_.looks_along(medium); })
+      return samples_light_along(medium, walk_.lambda) && visitor_.looks_along(medium);
+    return false;
+  }
+
+  /// [V7] Direct light that the medium scatters into the flight, at so many points.
+  void light_along(const Medium& medium, float distance, int samples) {
+    if constexpr (requires { visitor_.looks_along(medium); }) {
+      // The vertex at the end of the flight uses the same numbers, mirrored.
+      sampler_.start_dimension(walk_.vertex_dimension() + dimensions::kLight);
+      const float u_light = mirrored(sampler_.get_1d());
+      const Vec2f u = sampler_.get_2d();
+      const float u_point = light_random_.next();
+      for (int k = 0; k < samples; ++k) {
+        const auto n = static_cast<float>(k);
+        FlightRandom random = light_random_.fork((n + u_point) / static_cast<float>(samples));
+        light_random_.next();
+        // An additive recurrence spreads the points over all lights (R3 of Roberts 2018).
+        const auto light = sample_flight_light(
+            scene_, medium, walk_, distance, random, turned(u_light, n * 0.8191725f),
+            {turned(mirrored(u.x), n * 0.6710436f), turned(mirrored(u.y), n * 0.5497005f)});
+        if (!light) continue;
+        Walk there = walk_;
+        there.throughput = light->throughput / static_cast<float>(samples);
+        visitor_.light_along(there, *light, sampler_);
+      }
+    }
+  }
+  /// A number in [0,1), moved around.
+  static float turned(float u, float by) {
+    return std::min(u + by - std::floor(u + by), kOneMinusEpsilon);
+  }
+  static float mirrored(float u) { return std::min(1.0f - u, kOneMinusEpsilon); }
+
   bool scatter_in_medium(const Collision& collision) {
     if (walk_.events >= max_events_) return false;
     walk_.length += collision.t;
-    const MediumVertex vertex{*walk_.medium, walk_.ray.o + walk_.ray.d * collision.t, -walk_.ray.d,
-                              collision.phase, walk_.ray.time};
+    const MediumVertex vertex{*walk_.medium,  walk_.ray.o + walk_.ray.d * collision.t,
+                              -walk_.ray.d,   collision.phase,
+                              walk_.ray.time, is_lit_along(*walk_.medium)};
     const int dimension = walk_.vertex_dimension();
     sampler_.start_dimension(dimension + dimensions::kLight);
     visitor_.medium_vertex(walk_, vertex, sampler_);
@@ -324,7 +384,7 @@ class RandomWalk {
   Visitor& visitor_;
   SurfaceInteraction hit_;
   BsdfArena arena_;
-  FlightRandom flight_random_;
+  FlightRandom flight_random_, light_random_;
   int flight_vertex_ = -1;
 };
 

@@ -137,6 +137,7 @@ struct MediumVertex {
   Vec3f wo;  ///< unit, world
   HenyeyGreenstein phase;
   float time = 0;
+  bool lit_along = false;  ///< direct light was sampled along the flight that ended here
 };
 
 /// A scattering event of a walk.

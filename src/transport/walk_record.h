@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "transport/walk.h"
+#include "transport/flight_light.h"
 
 namespace nephroid {
 
@@ -56,6 +56,21 @@ class RecordedBranch {
   size_t vertices_ = 0, events_ = 0;
 };
 
+/// A vertex beside the walk, forgotten at the end.
+class RecordedDetour {
+ public:
+  RecordedDetour(WalkRecord& record, const Vec3f& p) : record_(record), vertices_(record.vertices) {
+    record_.arrive(p);
+  }
+  ~RecordedDetour() { record_.vertices = std::move(vertices_); }
+  RecordedDetour(const RecordedDetour&) = delete;
+  RecordedDetour& operator=(const RecordedDetour&) = delete;
+
+ private:
+  WalkRecord& record_;
+  std::vector<WalkRecord::Vertex> vertices_;
+};
+
 /// A visitor whose walk is recorded.
 template <class Visitor>
 class RecordingVisitor : public Visitor {
@@ -70,6 +85,14 @@ class RecordingVisitor : public Visitor {
   void medium_vertex(const Walk& walk, const MediumVertex& v, PathSampler& sampler) {
     record_.arrive(v.p);
     Visitor::medium_vertex(walk, v, sampler);
+  }
+  void light_along(const Walk& walk, const FlightLight& found, PathSampler& sampler) requires
+      requires(Visitor& v) {
+    v.light_along(walk, found, sampler);
+  }
+  {
+    const RecordedDetour recorded(record_, found.vertex.p);
+    Visitor::light_along(walk, found, sampler);
   }
   bool scatter(const Walk& walk, const WalkEvent& event) {
     record_.scatter(event);

@@ -179,43 +179,67 @@ TEST(Media, GlowingSlab) {
   }
 }
 
-TEST(Media, SingleScatteringOfAPointLight) {
-  // The medium fills everything; a black wall ends the view. Single scattering: the integral along
-  // the axis of the lamp's light that the phase function sends to the camera.
-  for (const MediumText& m : media(0.3, 0.5)) {
-    const auto scene =
-        scene_from_text(camera(named(m) + "MediumInterface \"m\" \"m\"\n", 0.05, -1.9) + R"(
-        LightSource "point" "rgb I" [ 5 5 5 ] "point3 from" [ 0.8 0.3 -0.4 ]
+/// Single scattering: the integral along the axis of the light of a lamp at (0.8, 0.3, -0.4) that
+/// the phase function sends to the camera. The medium fills everything; a black wall ends the view.
+/// `shines`: share of the lamp's 5 units of intensity that goes to a point of the axis.
+void expect_single_scattering(const MediumText& m, const std::string& integrator,
+                              const std::string& lamp_text,
+                              const std::function<float(const Vec3f&)>& shines) {
+  const auto scene =
+      scene_from_text(camera(named(m) + "MediumInterface \"m\" \"m\"\n", 0.05, -1.9) + lamp_text +
+                      R"(
         Material "diffuse" "rgb reflectance" [ 0 0 0 ]
         Translate 0 0 1 Shape "disk" "float radius" 5)");
-    IntegratorOptions options;
-    options.max_depth = 1;
-    const Vec3f lamp(0.8f, 0.3f, -0.4f);
-    const double expected = film_mean(
-        *scene,
-        [&](const SampledWavelengths& lambda) {
-          const Medium& medium = *scene->media[0];
-          SampledSpectrum sum;
-          along_axis(medium, -1.9f, 1, lambda,
-                     [&](float z, const MediumProperties& p, const SampledSpectrum& t, float dt) {
-                       const Vec3f to_lamp = lamp - Vec3f(0, 0, z);
-                       const float distance = length(to_lamp);
-                       // Optical depth to the lamp.
-                       constexpr int kSteps = 40;
-                       SampledSpectrum depth;
-                       for (int i = 0; i < kSteps; ++i) {
-                         const float f = (static_cast<float>(i) + 0.5f) / kSteps;
-                         const auto q = medium.at(Vec3f(0, 0, z) + to_lamp * f, lambda);
-                         depth += (q.sigma_a + q.sigma_s) * (distance / kSteps);
-                       }
-                       const float phase = p.phase.eval({0, 0, -1}, to_lamp * (1 / distance));
-                       sum += t * p.sigma_s * exp(-depth) * (5 * phase * dt / sqr(distance));
-                     });
-          return sum * white(lambda);
-        },
-        1024);
-    expect_mean(*scene, "path", m.name, expected, 256, options);
-  }
+  IntegratorOptions options;
+  options.max_depth = 1;
+  const Vec3f lamp(0.8f, 0.3f, -0.4f);
+  const double expected = film_mean(
+      *scene,
+      [&](const SampledWavelengths& lambda) {
+        const Medium& medium = *scene->media[0];
+        SampledSpectrum sum;
+        along_axis(medium, -1.9f, 1, lambda,
+                   [&](float z, const MediumProperties& p, const SampledSpectrum& t, float dt) {
+                     const Vec3f to_lamp = lamp - Vec3f(0, 0, z);
+                     const float distance = length(to_lamp);
+                     // Optical depth to the lamp.
+                     constexpr int kSteps = 40;
+                     SampledSpectrum depth;
+                     for (int i = 0; i < kSteps; ++i) {
+                       const float f = (static_cast<float>(i) + 0.5f) / kSteps;
+                       const auto q = medium.at(Vec3f(0, 0, z) + to_lamp * f, lambda);
+                       depth += (q.sigma_a + q.sigma_s) * (distance / kSteps);
+                     }
+                     const float phase = p.phase.eval({0, 0, -1}, to_lamp * (1 / distance));
+                     const float intensity = 5 * shines(to_lamp * (-1 / distance));
+                     sum += t * p.sigma_s * exp(-depth) * (intensity * phase * dt / sqr(distance));
+                   });
+        return sum * white(lambda);
+      },
+      1024);
+  expect_mean(*scene, integrator, m.name, expected, 512, options);
+}
+
+TEST(Media, SingleScatteringOfAPointLight) {
+  for (const MediumText& m : media(0.3, 0.5))
+    expect_single_scattering(
+        m, "path", "LightSource \"point\" \"rgb I\" [ 5 5 5 ] \"point3 from\" [ 0.8 0.3 -0.4 ]",
+        [](const Vec3f&) { return 1.0f; });
+}
+
+TEST(Media, SingleScatteringOfASpotLight) {
+  // Only a piece of the axis is in the cone. The walks of `bdpt` keep all wavelengths apart.
+  const std::string spot = R"(LightSource "spot" "rgb I" [ 5 5 5 ] "point3 from" [ 0.8 0.3 -0.4 ]
+      "point3 to" [ 0 0 0.1 ] "float coneangle" 20 "float conedeltaangle" 5)";
+  const Vec3f axis = normalize(Vec3f(-0.8f, -0.3f, 0.5f));
+  const auto smooth = [&](const Vec3f& w) {
+    const float begin = std::cos(20 * kPi / 180), end = std::cos(15 * kPi / 180);
+    const float x = std::clamp((dot(w, axis) - begin) / (end - begin), 0.0f, 1.0f);
+    return x * x * (3 - 2 * x);
+  };
+  for (const MediumText& m : media(0.3, 0.5))
+    for (const char* integrator : {"path", "bdpt"})
+      expect_single_scattering(m, integrator, spot, smooth);
 }
 
 // A ball of the medium, whose surface has `material`.

@@ -193,10 +193,14 @@ bool OracleRoutes::can_sample(int route, const Path& path, size_t merge_vertices
   // path+photons merges only photons that passed an S. All words that it cannot find otherwise
   // contain one.
   const bool merges = is_one_of(estimator, {"vcm", "bpm", "path+photons"});
+  const bool merges_in_media = is_one_of(estimator, {"path+photons"});
+  bool only_specular = true;
   if (no_area && connects && n > 0 && !specular(kind_at(0))) return true;
   for (size_t i = 0; no_area && i < n; ++i) {
     const EventKind k = kind_at(i);
     if (connects && i > 0 && !specular(k) && !specular(kind_at(i - 1))) return true;
+    if (merges_in_media && only_specular && class_of(k) == EventClass::kVolume) return true;
+    only_specular = only_specular && specular(k);
     if (merges && (kRoughEvents >> static_cast<int>(k) & 1u) != 0) return true;
   }
   return !(no_area && (n == 0 || specular(kind_at(n - 1))));

@@ -95,6 +95,35 @@ void EyeVisitor::merge(const Walk& walk, const WalkVertex& v, ClassMask among,
   });
 }
 
+void EyeVisitor::gather_along(const Walk& walk, const Medium& medium, float t_max,
+                              FlightRandom& random) {
+  const PairMerging& merging = *settings_.merging;
+  if (!merging.media || roulette_.counts()) return;
+  const EyeState eye = routes_.next(eye_, symbol_in(symbols_, medium));
+  const int left = walk.lambda.left();
+  // Made at the first photon: most flights have none.
+  std::optional<FlightTransmittance> through;
+  const HenyeyGreenstein phase = medium.at(walk.ray.o, walk.lambda).phase;
+  merging.media->query(walk.ray, t_max, [&](const Photon& photon, float t, float d2, float radius) {
+    if (photon.medium != medium.index() || are_apart(left, photon.left) ||
+        photon.events + walk.events + 1 > settings_.max_depth)
+      return;
+    roulette_.count_in_medium();
+    const Part part = routes_.meet(eye, photon.state);
+    if (!light_.owns(part)) return;
+    if (!through) through.emplace(medium, walk.ray, t_max, walk.lambda, random);
+    const float scale = phase.eval(-walk.ray.d, photon.wi.unpacked()) /
+                        (static_cast<float>(merging.photons) * kPi * sqr(radius));
+    const SampledSpectrum whole = merged_spectrum(
+        walk.throughput * through->at(t) * photon.flux.unpacked() * scale, left, photon.left);
+    add_whole(part, photon.lamp, Technique::kMerge, whole, bias_factor(d2, radius));
+    if (recorder_) {
+      const RecordedDetour recorded(recorder_->walk, photon.p);
+      recorder_->merge({part, Technique::kMerge, whole}, event_in(medium), photon);
+    }
+  });
+}
+
 EyePathCounts trace_eye_path(const PairSettings& settings, const LightSubpath& path,
                              CameraPath& camera, PathSampler& sampler, PartSums& light,
                              const EyePathExtras& extras) {

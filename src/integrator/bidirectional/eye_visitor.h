@@ -64,7 +64,8 @@ class EyeVisitor {
   ClassMask useful(const WalkVertex& v) const {
     return routes_.useful(group_, eye_, label_at(symbols_, v));
   }
-  bool scatters_in(const Medium& medium) const {
+  bool scatters_in(const Medium& medium) const { return !gathers() && may_scatter_in(medium); }
+  bool may_scatter_in(const Medium& medium) const {
     return contains(routes_.useful(group_, eye_, symbols_.medium(medium.index())),
                     EventClass::kVolume);
   }
@@ -101,8 +102,27 @@ class EyeVisitor {
     surface_ = nullptr;
     medium_ = &v;
     const EyeEnd end{walk, nullptr, &v, ClassMask::kVolume, Receiver::of(v, walk.medium)};
-    next_event(end, sampler);
+    if (!v.lit_along) next_event(end, sampler);
     if (settings_.connects() && !settings_.merges_only) connect(end, sampler);
+  }
+
+  bool looks_along(const Medium& medium) const {
+    return routes_.ends(group_, routes_.next(eye_, symbol_in(symbols_, medium)));
+  }
+  bool gathers_in(const Medium& medium) const { return gathers() && may_scatter_in(medium); }
+  /// [V8] Merges the photons of a medium along the walk's next flight.
+  void gather_along(const Walk& walk, const Medium& medium, float t_max, FlightRandom& random);
+  // No MIS weight depends on where the walk itself collides ([V6]).
+  void light_along(const Walk& walk, const FlightLight& found, PathSampler& sampler) {
+    if (!makes(1, walk)) return;
+    const EyePartialWeights sums = sums_;
+    const Place place = place_;
+    arrive({found.vertex.p, Vec3f(0, 0, 0)});
+    add_direct(
+        {walk, nullptr, &found.vertex, ClassMask::kVolume, Receiver::of(found.vertex, walk.medium)},
+        found.direct, sampler);
+    sums_ = sums;
+    place_ = place;
   }
 
   bool branches(const Walk&) const { return root_.branches(); }
@@ -152,6 +172,8 @@ class EyeVisitor {
   bool makes(int light_vertices, const Walk& walk) const {
     return !settings_.merges_only && settings_.technique.makes(light_vertices, walk.events + 2);
   }
+  /// True if photons stand for all events of the walk in media, but for direct light.
+  bool gathers() const { return first_ && settings_.gathers_in_media(); }
   /// [W7] `hit` as in direct_pdf_w(), the others as in light_start().
   double weight_of_hit(const Walk& walk, int light, const Place& from, const auto& hit) const {
     if (!settings_.technique.weighted || walk.events == 0) return 1;
@@ -239,28 +261,30 @@ class EyeVisitor {
   void next_event(const EyeEnd& z, PathSampler& sampler) {
     if (!makes(1, z.walk)) return;
     const auto d = sample_direct(settings_.scene, z.receiver, z.walk.lambda, sampler);
-    if (!d) return;
+    if (d) add_direct(z, *d, sampler);
+  }
+  void add_direct(const EyeEnd& z, const DirectSample& d, const PathSampler& sampler) {
     ConnectionEnds ends;
-    if (!ends_at_eye(z, d->wi_world, Caster::kNone, ends)) return;
+    if (!ends_at_eye(z, d.wi_world, Caster::kNone, ends)) return;
     SampledSpectrum arriving;
     LightStart start;
     bool traced = false;
     for (size_t i = 0; i < ends.size(); ++i) {
       const ConnectionEnd& end = ends[i];
       if (!end.used) continue;
-      const Part part = routes_.owner(end.eye, symbols_.light(d->light));
+      const Part part = routes_.owner(end.eye, symbols_.light(d.light));
       if (!light_.owns(part)) continue;
       if (!traced) {
-        arriving = z.walk.throughput * d->radiance * shadow(*d, z, sampler);
+        arriving = z.walk.throughput * d.radiance * shadow(d, z, sampler);
         if (arriving.is_black()) return;
-        start = light_start(settings_, *d, z.receiver, place_, others_cut(z, ends));
+        start = light_start(settings_, d, z.receiver, place_, others_cut(z, ends));
       }
       traced = true;
       double weight = 1;
-      if (settings_.technique.weighted)
+      if (settings_.technique.weighted && !(z.medium && gathers()))
         weight = weight_of_direct(start, sums_.at_cut(z.class_of(i), Caster::kNone),
                                   end.density.forward, end.density.back, end.merge);
-      join(part, z, i, arriving * end.f * static_cast<float>(weight), *d);
+      join(part, z, i, arriving * end.f * static_cast<float>(weight), d);
     }
   }
 

@@ -68,8 +68,8 @@ class EyePartialWeights {
     f(kBehindSpecular);
   }
 
-  const bool connects_;
-  const CasterRule rule_;
+  bool connects_;
+  CasterRule rule_;
   /// [smoothest caster behind] the sums at the vertex, and the last vertex that the walk left.
   std::array<PartialMisWeights, kCasters> sums_;
   std::array<SideEnd, kCasters> ends_;

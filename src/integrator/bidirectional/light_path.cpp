@@ -52,6 +52,7 @@ class LightVisitor : public LightWalkVisitor {
     arrive(walk, {v.p, Vec3f(0, 0, 0)}, Vec3f(0, 0, 0));
     surface_ = nullptr;
     medium_ = &v;
+    if (photons_ && settings_.gathers_in_media()) deposit(walk, v);
     if (seen_) connect_medium(walk, v, sampler);
     if (!path_) return;
     LightVertex& y = store(walk, ClassMask::kVolume);
@@ -145,6 +146,17 @@ class LightVisitor : public LightWalkVisitor {
     photon.caster = caster_;
     photon.root_of_cut_here = static_cast<float>(std::sqrt(sums_.here));
     photon.root_of_cuts_before = static_cast<float>(std::sqrt(sums_.before));
+    photons_->push_back(photon);
+  }
+
+  // Photons that come straight from a light are not merged in media.
+  void deposit(const Walk& walk, const MediumVertex& v) {
+    if (caster_ == Caster::kNone ||
+        !contains(routes_.useful_from_light(group_, state_, symbols_.medium(v.medium.index())),
+                  EventClass::kVolume))
+      return;
+    Photon photon = photon_at(walk, v, emission_.flux);
+    photon.caster = caster_;
     photons_->push_back(photon);
   }
 

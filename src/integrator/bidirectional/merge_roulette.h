@@ -24,6 +24,8 @@ class MergeRoulette {
     ++here_;
     ++all_;
   }
+  /// Counts a photon merged in a medium. It says nothing about the light behind a vertex.
+  void count_in_medium() { ++all_; }
   /// At the exit from under a surface: forgets the photons merged at the entry.
   void come_out() { here_ = 0; }
   /// The path leaves the vertex. `first`: no earlier event was rough.

@@ -56,10 +56,9 @@ class PairRendering {
     start_batches();
     std::vector<Photon> photons = batches->next(add_splats, statistics);
     if (batches->empty() && !s_.merging.connects) {
-      const PhotonGrid grid(std::move(photons));
-      s_.merging.grid = &grid;
+      s_.use(std::move(photons));
       render_pixels(statistics);
-      statistics.hold(grid.bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
+      statistics.hold(s_.photon_bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
                       to_.paths ? bytes_of_measuring(0) : 0);
     } else {
       make_room();
@@ -82,7 +81,7 @@ class PairRendering {
       }
       finish_batches(buffer ? &*buffer : nullptr);
     }
-    s_.merging.grid = nullptr;
+    s_.forget_photons();
     s_.counter.add_to(statistics.techniques);
     s_.lamps.add_to(statistics);
     statistics.photon_paths += s_.techniques.light_paths;
@@ -158,11 +157,10 @@ class PairRendering {
   void render_batch(std::vector<Photon> photons, bool is_last, EstimatorStatistics& statistics) {
     if (clamps() && clamped_.empty() && !is_last && !s_.settings.merges_only)
       clamped_.resize(s_.format.bounds().area() * s_.most, s_.parts);
-    const PhotonGrid grid(std::move(photons));
-    s_.merging.grid = &grid;
+    s_.use(std::move(photons));
     trace_eye_paths(statistics);
     statistics.hold(
-        grid.bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
+        s_.photon_bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
         s_.format.bounds().area() * pair_pass_bytes_per_pixel(
                                         s_.parts, merged_.empty() && clamped_.empty() ? 0 : s_.most,
                                         !clamped_.empty(), s_.merging.connects) +
@@ -172,6 +170,7 @@ class PairRendering {
       statistics.rays +=
           pass.render(values_, pass.points([this](int n) { return s_.first_index(n); }));
     }
+    s_.forget_photons();
     s_.settings.merges_only = true;
   }
 
@@ -204,8 +203,7 @@ class PairRendering {
 
   /// Counts the photons of a batch that each sample merges, for [W12].
   void count_merged(std::vector<Photon> photons, EstimatorStatistics& statistics) {
-    const PhotonGrid grid(std::move(photons));
-    s_.merging.grid = &grid;
+    s_.use(std::move(photons));
     s_.settings.merges_only = true;
     const PixelSlices slices(s_.format.bounds());
     const auto count_slice = [&](PairRow& row, size_t slice) {
@@ -218,8 +216,8 @@ class PairRendering {
       statistics.rays += row.rays;
       statistics.batch_rays += row.rays;
     });
-    statistics.hold(grid.bytes(), merged_.size() * sizeof(uint32_t));
-    s_.merging.grid = nullptr;
+    statistics.hold(s_.photon_bytes(), merged_.size() * sizeof(uint32_t));
+    s_.forget_photons();
     s_.settings.merges_only = false;
   }
 

@@ -27,18 +27,22 @@ struct PairTechniques {
   /// Classes of casters: only photons that had such an event are merged (CasterRule). kNone: all
   /// photons are merged. If neither kNone nor kAll, `connects` must be false.
   ClassMask casters = ClassMask::kNone;
+  /// Photons of indirect light are also merged in media: camera paths do not scatter there before
+  /// their first other event that is no S ([V8]). Needs casters of kAll and no `connects`.
+  bool gathers_in_media = false;
   bool separates_chains = false;  ///< walks of their own look for specular chains
   bool follows_chains = false;    ///< camera paths grow specular trees (Leaves::kBranches)
   float roulette_threshold = 1;   ///< Russian roulette threshold of camera paths
   bool merges_all_light() const { return CasterRule(casters).merges_all_light(); }
   static void members(auto& self, auto& archive) {
-    archive(self.light_paths, self.connects, self.casters, self.separates_chains,
-            self.follows_chains, self.roulette_threshold);
+    archive(self.light_paths, self.connects, self.casters, self.gathers_in_media,
+            self.separates_chains, self.follows_chains, self.roulette_threshold);
   }
   bool is_sound() const {
     const bool merges_caustics =
         casters == ClassMask::kSpecular || casters == (ClassMask::kSpecular | ClassMask::kGlossy);
     return light_paths >= 0 && (merges_all_light() || (merges_caustics && !connects)) &&
+           (!gathers_in_media || (casters == ClassMask::kAll && !connects)) &&
            !(separates_chains && follows_chains) && roulette_threshold > 0 &&
            roulette_threshold <= 1;
   }

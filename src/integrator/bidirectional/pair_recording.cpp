@@ -50,8 +50,9 @@ void record_pixel(PairPass pass, const PixelPass& pixel, const RadianceGuide& di
   PhotonHistories photons(
       pass.techniques.light_paths,
       [&](int64_t j, std::vector<Photon>& into) { batches.trace_path(j, seen, into); },
-      [&](int64_t j) { return batches.record_path(j); });
-  sampler.merging.grid = &photons.grid();
+      [&](int64_t j) { return batches.record_path(j); },
+      [&](const Vec3f& p) { return sampler.merging.radius_at(p); });
+  sampler.merging.merge(photons.maps());
   tally.use(photons);
   PairRow row;
   PairSampler::Worker worker(sampler, row);

@@ -1,5 +1,6 @@
 #include "integrator/bidirectional/pair_sampler.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -16,6 +17,18 @@ constexpr uint64_t kPairStream = 0x76636d70;    // "vcmp"
 /// Number of pixels: all of the film; without a film those of the first lattice.
 size_t pixels_of(const FilmFormat& format, const Film* film) {
   return film != nullptr ? format.bounds().area() : PixelSlices(format.bounds()).first_pixels();
+}
+
+/// The median distance of photons in media. Nearer ones are merged in discs as wide as there: with
+/// the footprint of a pixel right before the camera, single photons would be bright dots.
+float median_distance_in_media(const std::vector<Photon>& photons, const Vec3f& eye) {
+  std::vector<float> distances;
+  for (const Photon& photon : photons)
+    if (photon.medium >= 0) distances.push_back(length(photon.p - eye));
+  if (distances.empty()) return 0;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
 }
 
 }  // namespace
@@ -54,6 +67,7 @@ PairSampler::PairSampler(const PairPass& pass, const FilmFormat& of_film, const 
   merging.footprint = photons.footprint;
   merging.eye = pass.scene.camera->camera_to_world(photons.trace.time).point(Vec3f(0, 0, 0));
   merging.connects = techniques.connects;
+  merging.gathers_in_media = techniques.gathers_in_media;
   settings.view = pass.scene.camera->connects() && merging.connects ? &view_ : nullptr;
   settings.specular_alpha = photons.trace.specular_alpha;
   settings.max_depth = pass.options.max_depth;
@@ -99,6 +113,21 @@ CameraPath PairSampler::start(int x, int y, int k, PathSampler& sampler) const {
   CameraPath path = start_merging_path(in.scene, x, y, sampler, photons, k);
   path.walk.roulette_threshold = techniques.roulette_threshold;
   return path;
+}
+
+void PairSampler::use(std::vector<Photon> photons_of_pass) {
+  // A flight passes photons at all distances, a surface has those of one place.
+  const float radius_pixels = 0.5f * merging.radius_pixels;
+  const float least = median_distance_in_media(photons_of_pass, merging.eye);
+  maps_.emplace(std::move(photons_of_pass), [&](const Vec3f& p) {
+    return radius_pixels * merging.footprint.width(std::max(length(p - merging.eye), least));
+  });
+  merging.merge(*maps_);
+}
+
+void PairSampler::forget_photons() {
+  merging.forget_photons();
+  maps_.reset();
 }
 
 void PairSampler::count_merged(int x, int y, int samples, int k, Worker& worker, uint32_t& merged) {

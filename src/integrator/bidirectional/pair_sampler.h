@@ -84,6 +84,10 @@ class PairSampler {
                     uint32_t* merged = nullptr);
   /// Adds the number of photons of a batch that the sample merges to `merged`.
   void count_merged(int x, int y, int samples, int k, Worker& worker, uint32_t& merged);
+  /// Sorts photons, which are merged until they are forgotten.
+  void use(std::vector<Photon> photons);
+  void forget_photons();
+  size_t photon_bytes() const { return maps_ ? maps_->bytes() : 0; }
   size_t pixel_of(int x, int y) const {
     const PixelBounds& b = format.bounds();
     return static_cast<size_t>(y - b.y0) * b.width() + (x - b.x0);
@@ -115,6 +119,7 @@ class PairSampler {
   CameraPath start(int x, int y, int k, PathSampler& sampler) const;
 
   const CameraView view_;
+  std::optional<PhotonMaps> maps_;
   std::vector<std::vector<SamplePoints>> points_;  ///< [samples of the pixel - 1][sample]
 };
 

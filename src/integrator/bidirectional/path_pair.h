@@ -15,7 +15,7 @@
 #include "integrator/path/specular_tree.h"
 #include "photon/emission_guide.h"
 #include "photon/path_recorder.h"
-#include "photon/photon_grid.h"
+#include "photon/photon_maps.h"
 #include "route/scene_symbols.h"
 #include "transport/camera_connection.h"
 #include "transport/camera_path.h"
@@ -29,7 +29,11 @@ namespace nephroid {
 /// techniques agree on it.
 struct PairMerging {
   const PhotonGrid* grid = nullptr;  ///< null while the photons are traced
-  double photons = 1;                ///< light paths that left them, N of [W8]
+  /// Photons that camera paths merge along their flights, until a first event that is no S. Null:
+  /// there are none.
+  const MediumPhotons* media = nullptr;
+  bool gathers_in_media = false;  ///< photons of media are stored, and merged as above
+  double photons = 1;             ///< light paths that left them, N of [W8]
   float radius_pixels = 0;
   PixelFootprint footprint;
   Vec3f eye{0, 0, 0};  ///< origin of distances
@@ -39,6 +43,14 @@ struct PairMerging {
   bool connects = true;        ///< false: eye vertices are connected to lights only
   CasterRule rule;             ///< rule that says which photons are merged
 
+  void merge(const PhotonMaps& maps) {
+    grid = &maps.surfaces();
+    media = &maps.media();
+  }
+  void forget_photons() {
+    grid = nullptr;
+    media = nullptr;
+  }
   bool merges_all_light() const { return rule.merges_all_light() && photons > 0; }
   /// True if a path merges only at the first vertex that lets it. There all photons find the rest
   /// of the path. At a later one the eye's part counts once, so it would have next to no weight.
@@ -75,6 +87,7 @@ struct PairSettings {
 
   bool connects() const { return !merging || merging->connects; }
   bool merges_all_light() const { return merging && merging->merges_all_light(); }
+  bool gathers_in_media() const { return merging && merging->gathers_in_media; }
 };
 
 /// A vertex of a light path with the data to evaluate connections to it later.

@@ -37,6 +37,13 @@ const char* out_of_reach_of_merging(const PathSummary& path) {
              : nullptr;
 }
 
+const char* out_of_reach_of_merging_in_media(const PathSummary& path) {
+  return path.ends_out_of_reach() && !path.events.any_surface && !path.events.volume_before_rough
+             ? "no path meets a light at a point or in one direction, none is connected to it "
+               "behind an S, and photons are merged at D and G, and at a V with only S before it"
+             : nullptr;
+}
+
 const char* out_of_reach_of_both(const PathSummary& path) {
   return path.events.any_surface ? nullptr : out_of_reach_of_connections(path);
 }

@@ -12,6 +12,8 @@ const char* out_of_reach_of_eye_walks(const PathSummary& path);
 const char* out_of_reach_of_connections(const PathSummary& path);
 /// By eye subpaths with next-event estimation that gather photons at D and G.
 const char* out_of_reach_of_merging(const PathSummary& path);
+/// By the same, if photons are also gathered along a walk's first flights through media ([V8]).
+const char* out_of_reach_of_merging_in_media(const PathSummary& path);
 /// By connections and merging together.
 const char* out_of_reach_of_both(const PathSummary& path);
 

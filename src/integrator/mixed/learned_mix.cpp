@@ -12,7 +12,9 @@ void LearnedMix::add_to(EstimatorStatistics& s) const {
   if (techniques.casters == ClassMask::kNone)
     s.notes.push_back(
         "photons render all light, not only caustics: trial passes had less error that way");
-  if (techniques.casters == ClassMask::kAll)
+  if (techniques.gathers_in_media)
+    s.notes.push_back("photons render all indirect light, in media as well");
+  else if (techniques.casters == ClassMask::kAll)
     s.notes.push_back(
         "photons render all indirect light, not only caustics: trial passes had less error that "
         "way");

@@ -49,13 +49,27 @@ SampleAllocation allocation(const PairFindings::Variance& v, const MixPlan& plan
                           most);
 }
 
+/// True if paths of the group may have events in a medium of the scene.
+bool scatters_in_media(const OwnedRoutes& owned, const Scene& scene) {
+  return has_events(owned, EventClass::kVolume) &&
+         std::ranges::any_of(scene.media,
+                             [](const MediumPtr& m) { return !m->is_purely_absorbing(); });
+}
+
+/// True if only photons can find the caustics that a medium shows: those of lights that no walk can
+/// hit.
+bool needs_photons_in_media(const OwnedRoutes& owned, const Scene& scene) {
+  return scatters_in_media(owned, scene) && has_events(owned, EventClass::kSpecular) &&
+         std::ranges::any_of(scene.lights, [](const LightPtr& l) { return l->is_delta(); });
+}
+
 }  // namespace
 
 constinit const EstimatorDescriptor PathAndPhotons::kDescriptor = {
     .traits = {.name = "path+photons",
                .help = "path tracing, and photons of caustics, each weighed against the other",
                .starts_at_lights = true,
-               .why_never_sampled = out_of_reach_of_merging},
+               .why_never_sampled = out_of_reach_of_merging_in_media},
     .settings = kMixedSettings,
     .merges_with_radius = true,
     .keeps_photons = true,
@@ -94,7 +108,16 @@ PathAndPhotons::Choice PathAndPhotons::best_of(
   GuidedPhotons guided = photons_of(ClassMask::kAll);
   // Camera paths ask for the density of each start, which takes some time.
   if (guided.guide.starts.share_unaimed() > kEnoughUseful) guided.guide = {};
+  techniques.gathers_in_media = scatters_in_media(owned_, scene);
   Choice all = try_photons(ClassMask::kAll, guided);
+  techniques.gathers_in_media = false;
+  const auto without_chains = [](Choice choice) {
+    // Separate walks for specular chains would cost more than these short camera paths.
+    PairTechniques& own = choice.candidate.techniques;
+    own.follows_chains = std::exchange(own.separates_chains, false);
+    return choice;
+  };
+  if (needs_photons_in_media(owned_, scene)) return without_chains(std::move(all));
   const auto inverse_efficiency = [most_light = all.candidate.trial](Candidate of) {
     // Photons of all light find all that caustic photons find, though they lose light at edges.
     of.balance.variance_of_camera += of.trial.min_variance_of_unseen(most_light);
@@ -127,12 +150,7 @@ PathAndPhotons::Choice PathAndPhotons::best_of(
       keep_better(all, try_photons(ClassMask::kNone, std::move(guided)), kRequiredGain);
     keep_better(best, std::move(all), kRequiredGain);
   }
-  if (best.candidate.techniques.merges_all_light()) {
-    // Separate walks for specular chains would cost more than these short camera paths.
-    PairTechniques& own = best.candidate.techniques;
-    own.follows_chains = std::exchange(own.separates_chains, false);
-    return best;
-  }
+  if (best.candidate.techniques.merges_all_light()) return without_chains(std::move(best));
   // [A5]
   techniques = best.candidate.techniques;
   techniques.roulette_threshold = kPatientRouletteThreshold;

@@ -106,20 +106,15 @@ class PathVisitorOf {
   }
 
   void medium_vertex(const Walk& walk, const MediumVertex& v, PathSampler& sampler) {
-    const EyeState eye = routes_.next(eye_, symbol_in(symbols_, v.medium));
-    if (!routes_.ends(group_, eye)) return;
+    if (v.lit_along || !looks_along(v.medium)) return;
     const auto d = sample_direct(scene_, Receiver::of(v, walk.medium), walk.lambda, sampler);
-    if (!d) return;
-    const Part part = routes_.owner(eye, symbols_.light(d->light));
-    if (!light_.owns(part)) return;
-    const ShadowFlight shadow = shadow_of(walk, nullptr, *d, sampler);
-    if (shadow.transmittance.is_black()) return;
-    const float phase = v.phase.eval(v.wo, d->wi_world);
-    join(walk, part,
-         walk.throughput * d->radiance * shadow.transmittance *
-             (phase * weight_of_direct(walk, *d, shadow, phase)) *
-             self().share_after(EventClass::kVolume),
-         event_in(v.medium), *d, v.p);
+    if (d) next_event(walk, v, *d, walk.density.u, sampler);
+  }
+  bool looks_along(const Medium& medium) const {
+    return routes_.ends(group_, routes_.next(eye_, symbol_in(symbols_, medium)));
+  }
+  void light_along(const Walk& walk, const FlightLight& found, PathSampler& sampler) {
+    next_event(walk, found.vertex, found.direct, found.collision, sampler);
   }
 
   bool branches(const Walk&) const { return root_.branches(); }
@@ -201,12 +196,37 @@ class PathVisitorOf {
                                 const ShadowFlight& shadow, float walk_pdf) {
     if (walk.density.plain && shadow.plain)
       return direct.delta ? 1.0f : power_heuristic(direct.pdf_w, walk_pdf);
-    SpectralDensity d;
-    d.u = walk.density.u * shadow.u;
-    d.l = walk.density.u * shadow.l;
-    d.take_means(walk.lambda);
-    return (direct.delta ? 1.0f : power_heuristic(direct.pdf_w * d.l_mean, walk_pdf * d.u_mean)) /
-           d.l_mean;
+    return weight_of_direct(walk, direct, shadow, walk_pdf, walk.density.u);
+  }
+  // `u_here` is r_u of a walk's event where the light was sampled, up to a factor; the walk's own
+  // density is that of the way there.
+  static float weight_of_direct(const Walk& walk, const DirectSample& direct,
+                                const ShadowFlight& shadow, float walk_pdf,
+                                const SampledSpectrum& u_here) {
+    const auto mean = [&](const SampledSpectrum& r) {
+      const int left = walk.lambda.left();
+      return left != kAllWavelengths ? r[left] : r.average();
+    };
+    const float sampled = mean(walk.density.u * shadow.l);
+    if (direct.delta) return 1.0f / sampled;
+    return power_heuristic(direct.pdf_w * mean(u_here * shadow.l),
+                           walk_pdf * mean(u_here * shadow.u)) /
+           sampled;
+  }
+
+  void next_event(const Walk& walk, const MediumVertex& v, const DirectSample& d,
+                  const SampledSpectrum& u_here, const PathSampler& sampler) {
+    const EyeState eye = routes_.next(eye_, symbol_in(symbols_, v.medium));
+    const Part part = routes_.owner(eye, symbols_.light(d.light));
+    if (!light_.owns(part)) return;
+    const ShadowFlight shadow = shadow_of(walk, nullptr, d, sampler);
+    if (shadow.transmittance.is_black()) return;
+    const float phase = v.phase.eval(v.wo, d.wi_world);
+    join(walk, part,
+         walk.throughput * d.radiance * shadow.transmittance *
+             (phase * weight_of_direct(walk, d, shadow, phase, u_here)) *
+             self().share_after(EventClass::kVolume),
+         event_in(v.medium), d, v.p);
   }
 
   void next_event(const Walk& walk, const WalkVertex& v, ClassMask finite, ClassMask among,

@@ -94,7 +94,7 @@ void PhotonMapping::record_pixel(const PixelPass& pixel, const Learned* learned,
     const float r = radius_pixels * pass.footprint.width(walk.length);
     if (!(r > 0.0f)) return;
     at.throughput = at.throughput / (static_cast<float>(paths) * kPi * r * r);
-    merge_photons(photons.grid(), owned_, at, options_.max_depth, r, sums, &tally);
+    merge_photons(photons.maps().surfaces(), owned_, at, options_.max_depth, r, sums, &tally);
   };
   for (int k = 0; k < pixel.camera_paths; ++k) {
     const SobolPoint point =

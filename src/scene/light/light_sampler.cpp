@@ -68,12 +68,30 @@ struct LightSampler::Impl {
   }
 
   /// Importances of the few lights, and their sum.
-  std::pair<std::array<double, kFew>, double> few_importances(const Vec3f& p,
-                                                              const Vec3f& n) const {
-    std::array<double, kFew> w{};
+  struct FewImportances {
+    std::array<double, kFew> of{};
     double sum = 0.0;
-    for (int i = 0; i < few_count; ++i) sum += w[i] = few[i].importance(p, n);
-    return {w, sum};
+    /// The light that `rest` in [0, sum) chooses.
+    int choose(double rest, int count) const {
+      int last = 0;
+      for (int i = 0; i < count; ++i) {
+        if (of[i] == 0.0) continue;
+        last = i;
+        if (rest < of[i]) break;
+        rest -= of[i];
+      }
+      return last;
+    }
+  };
+  FewImportances few_importances(const Vec3f& p, const Vec3f& n) const {
+    FewImportances w;
+    for (int i = 0; i < few_count; ++i) w.sum += w.of[i] = few[i].importance(p, n);
+    return w;
+  }
+  FewImportances few_importances_along(const Ray& ray, float t_max) const {
+    FewImportances w;
+    for (int i = 0; i < few_count; ++i) w.sum += w.of[i] = few[i].importance_along(ray, t_max);
+    return w;
   }
 
   std::vector<int> infinite;
@@ -110,18 +128,10 @@ std::optional<LightChoice> LightSampler::sample(const Vec3f& p, const Vec3f& n, 
     if (!choice) return std::nullopt;
     return LightChoice{choice->light, static_cast<float>(choice->probability)};
   }
-  const auto [weights, sum] = d.few_importances(p, n);
-  if (!(sum > 0.0)) return std::nullopt;
-  double rest = v * sum;
-  int last = 0;
-  for (int i = 0; i < d.few_count; ++i) {
-    if (weights[i] == 0.0) continue;
-    last = i;
-    if (rest < weights[i]) break;
-    rest -= weights[i];
-  }
-  return LightChoice{d.few_lights[last],
-                     static_cast<float>(d.bounded_share * (weights[last] / sum))};
+  const Impl::FewImportances w = d.few_importances(p, n);
+  if (!(w.sum > 0.0)) return std::nullopt;
+  const int i = w.choose(v * w.sum, d.few_count);
+  return LightChoice{d.few_lights[i], static_cast<float>(d.bounded_share * (w.of[i] / w.sum))};
 }
 
 float LightSampler::pmf(const Vec3f& p, const Vec3f& n, int light) const {
@@ -129,11 +139,49 @@ float LightSampler::pmf(const Vec3f& p, const Vec3f& n, int light) const {
   if (light < 0 || light >= static_cast<int>(d.is_infinite.size())) return 0.0f;
   if (d.is_infinite[light]) return static_cast<float>(d.infinite_share);
   if (d.tree) return static_cast<float>(d.tree->pmf(p, n, light, d.bounded_share));
-  const auto [weights, sum] = d.few_importances(p, n);
-  if (!(sum > 0.0)) return 0.0f;
+  const Impl::FewImportances w = d.few_importances(p, n);
+  if (!(w.sum > 0.0)) return 0.0f;
   for (int i = 0; i < d.few_count; ++i)
-    if (d.few_lights[i] == light) return static_cast<float>(d.bounded_share * (weights[i] / sum));
+    if (d.few_lights[i] == light) return static_cast<float>(d.bounded_share * (w.of[i] / w.sum));
   return 0.0f;
+}
+
+std::optional<LightAlong> LightSampler::sample_along(const Ray& ray, float t_max, float u) const {
+  const Impl& d = *impl_;
+  const double v = refine(u, ray.o);
+  if (d.tree) {
+    if (!d.tree->shines_along(ray, t_max)) return std::nullopt;
+    const auto choice = d.tree->sample_along(ray, t_max, v);
+    if (!choice) return LightAlong();
+    return LightAlong{choice->light, static_cast<float>(choice->probability),
+                      d.tree->leaf(choice->light)->along(ray, t_max)};
+  }
+  const Impl::FewImportances w = d.few_importances_along(ray, t_max);
+  if (!(w.sum > 0.0) || !std::isfinite(w.sum)) return std::nullopt;
+  const int i = w.choose(v * w.sum, d.few_count);
+  return LightAlong{d.few_lights[i], static_cast<float>(w.of[i] / w.sum),
+                    d.few[i].along(ray, t_max)};
+}
+
+std::optional<LightAlong> LightSampler::find_along(const Ray& ray, float t_max, int light) const {
+  const Impl& d = *impl_;
+  LightAlong found{light, 0, {}};
+  if (d.tree) {
+    const LightCluster* leaf = d.tree->leaf(light);
+    if (leaf == nullptr) return std::nullopt;
+    found.pdf_p = static_cast<float>(d.tree->pmf_along(ray, t_max, light));
+    found.distances = leaf->along(ray, t_max);
+  } else {
+    const Impl::FewImportances w = d.few_importances_along(ray, t_max);
+    if (!(w.sum > 0.0) || !std::isfinite(w.sum)) return std::nullopt;
+    for (int i = 0; i < d.few_count; ++i) {
+      if (d.few_lights[i] != light) continue;
+      found.pdf_p = static_cast<float>(w.of[i] / w.sum);
+      found.distances = d.few[i].along(ray, t_max);
+    }
+  }
+  if (!(found.pdf_p > 0.0f)) return std::nullopt;
+  return found;
 }
 
 std::optional<LightChoice> LightSampler::sample_by_power(float& u) const {

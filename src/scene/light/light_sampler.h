@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "scene/light/equiangular.h"
 #include "scene/light/light.h"
 
 namespace nephroid {
@@ -12,6 +13,15 @@ namespace nephroid {
 struct LightChoice {
   int light = -1;
   float pdf_p = 0;
+};
+
+/// A bounded light chosen for a ray, and the distances along the ray that see it well.
+struct LightAlong {
+  int light = -1;  ///< -1: the choice led to no light
+  float pdf_p = 0;
+  Equiangular distances;
+  /// Density of the light and a distance.
+  float pdf(float t) const { return pdf_p * distances.pdf(t); }
 };
 
 class LightSampler {
@@ -25,6 +35,12 @@ class LightSampler {
   std::optional<LightChoice> sample(const Vec3f& p, const Vec3f& n, float u) const;
   /// Probability that sample() returns `light` at this point.
   float pmf(const Vec3f& p, const Vec3f& n, int light) const;
+
+  /// Samples a bounded light for a ray of unit direction, by what it can send to all of its points
+  /// up to `t_max`. Empty for every `u` if no bounded light shines on it.
+  std::optional<LightAlong> sample_along(const Ray& ray, float t_max, float u) const;
+  /// The same light with its probability; empty if sample_along() never returns it.
+  std::optional<LightAlong> find_along(const Ray& ray, float t_max, int light) const;
 
   /// Samples a light in proportion to its power. Empty if all are black. `u` is rescaled to [0,1)
   /// for reuse.

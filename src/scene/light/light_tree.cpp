@@ -184,6 +184,17 @@ float LightCluster::importance(const Vec3f& p, const Vec3f& n) const {
   return value;
 }
 
+Equiangular LightCluster::along(const Ray& ray, float t_max) const {
+  LightPlace place;
+  place.center = center;
+  place.radius2 = radius2;
+  place.axis = axis;
+  // The cone of normals and the angles around each of them.
+  const float cos_cone = cos_o * cos_e - sin_o * safe_sqrt(1.0f - cos_e * cos_e);
+  if (!two_sided && cos_o > 0.0f) place.cos_cone = cos_cone;
+  return {ray, t_max, place};
+}
+
 LightTree::LightTree(std::vector<Item> items, int light_count) : trails_(light_count) {
   if (items.empty()) return;
   nodes_.reserve(2 * items.size());
@@ -230,20 +241,22 @@ LightBounds LightTree::build(uint32_t node, std::vector<Item>& items, size_t beg
   return both;
 }
 
-double LightTree::first_probability(const Node& node, const Vec3f& p, const Vec3f& n) const {
-  const double first = nodes_[node.child].cluster.importance(p, n);
-  const double second = nodes_[node.child + 1].cluster.importance(p, n);
+template <class Importance>
+double LightTree::first_probability(const Node& node, const Importance& importance) const {
+  const double first = importance(nodes_[node.child].cluster);
+  const double second = importance(nodes_[node.child + 1].cluster);
   const double sum = first + second;
   return sum > 0.0 ? first / sum : -1.0;
 }
 
-std::optional<LightTree::Choice> LightTree::sample(const Vec3f& p, const Vec3f& n, double u,
+template <class Importance>
+std::optional<LightTree::Choice> LightTree::sample(const Importance& importance, double u,
                                                    double probability) const {
   if (nodes_.empty()) return std::nullopt;
   const Node* node = &nodes_[0];
-  if (!(node->cluster.importance(p, n) > 0.0f)) return std::nullopt;
+  if (!(importance(node->cluster) > 0.0f)) return std::nullopt;
   while (!(node->child & kLeaf)) {
-    const double first = first_probability(*node, p, n);
+    const double first = first_probability(*node, importance);
     if (first < 0.0) return std::nullopt;
     if (u < first) {
       u /= first;
@@ -260,19 +273,55 @@ std::optional<LightTree::Choice> LightTree::sample(const Vec3f& p, const Vec3f& 
   return Choice{static_cast<int>(node->child & ~kLeaf), probability};
 }
 
-double LightTree::pmf(const Vec3f& p, const Vec3f& n, int light, double probability) const {
-  if (light < 0 || light >= static_cast<int>(trails_.size()) || !trails_[light].present) return 0.0;
+template <class Importance>
+double LightTree::pmf(const Importance& importance, int light, double probability) const {
+  if (!contains(light)) return 0.0;
   const Node* node = &nodes_[0];
-  if (!(node->cluster.importance(p, n) > 0.0f)) return 0.0;
+  if (!(importance(node->cluster) > 0.0f)) return 0.0;
   uint64_t trail = trails_[light].bits;
   while (!(node->child & kLeaf)) {
-    const double first = first_probability(*node, p, n);
+    const double first = first_probability(*node, importance);
     if (first < 0.0) return 0.0;
     probability *= trail & 1 ? 1.0 - first : first;
     node = &nodes_[node->child + (trail & 1)];
     trail >>= 1;
   }
   return probability;
+}
+
+namespace {
+
+auto importance_at(const Vec3f& p, const Vec3f& n) {
+  return [&p, &n](const LightCluster& c) { return c.importance(p, n); };
+}
+auto importance_along(const Ray& ray, float t_max) {
+  return [&ray, t_max](const LightCluster& c) { return c.importance_along(ray, t_max); };
+}
+
+}  // namespace
+
+std::optional<LightTree::Choice> LightTree::sample(const Vec3f& p, const Vec3f& n, double u,
+                                                   double probability) const {
+  return sample(importance_at(p, n), u, probability);
+}
+double LightTree::pmf(const Vec3f& p, const Vec3f& n, int light, double probability) const {
+  return pmf(importance_at(p, n), light, probability);
+}
+
+std::optional<LightTree::Choice> LightTree::sample_along(const Ray& ray, float t_max,
+                                                         double u) const {
+  return sample(importance_along(ray, t_max), u, 1.0);
+}
+double LightTree::pmf_along(const Ray& ray, float t_max, int light) const {
+  return pmf(importance_along(ray, t_max), light, 1.0);
+}
+
+const LightCluster* LightTree::leaf(int light) const {
+  if (!contains(light)) return nullptr;
+  const Node* node = &nodes_[0];
+  for (uint64_t trail = trails_[light].bits; !(node->child & kLeaf); trail >>= 1)
+    node = &nodes_[node->child + (trail & 1)];
+  return &node->cluster;
 }
 
 }  // namespace nephroid

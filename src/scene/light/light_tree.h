@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "scene/light/equiangular.h"
 #include "scene/light/light.h"
 
 namespace nephroid {
@@ -27,6 +28,12 @@ struct LightCluster {
   /// Estimates the light that arrives at `p` with unit normal `n` (null: none). Never 0 where light
   /// arrives.
   float importance(const Vec3f& p, const Vec3f& n) const;
+  /// Distances along a ray of unit direction that see the lights well.
+  Equiangular along(const Ray& ray, float t_max) const;
+  /// Estimates the light that arrives along a ray, summed over its length.
+  float importance_along(const Ray& ray, float t_max) const {
+    return power * along(ray, t_max).importance();
+  }
 };
 
 class LightTree {
@@ -49,6 +56,15 @@ class LightTree {
   std::optional<Choice> sample(const Vec3f& p, const Vec3f& n, double u, double probability) const;
   /// The probability of that choice; 0 for lights that are not in the tree.
   double pmf(const Vec3f& p, const Vec3f& n, int light, double probability) const;
+  /// True if sample_along() can return a light.
+  bool shines_along(const Ray& ray, float t_max) const {
+    return !nodes_.empty() && nodes_[0].cluster.importance_along(ray, t_max) > 0.0f;
+  }
+  /// The same for the light that arrives along a ray, with probability 1 for all lights together.
+  std::optional<Choice> sample_along(const Ray& ray, float t_max, double u) const;
+  double pmf_along(const Ray& ray, float t_max, int light) const;
+  /// The cluster of a single light of the tree; null for other lights.
+  const LightCluster* leaf(int light) const;
   /// Number of inner nodes on the longest path.
   int depth() const { return depth_; }
 
@@ -63,10 +79,19 @@ class LightTree {
     bool present = false;
   };
 
+  bool contains(int light) const {
+    return light >= 0 && light < static_cast<int>(trails_.size()) && trails_[light].present;
+  }
   LightBounds build(uint32_t node, std::vector<Item>& items, size_t begin, size_t end,
                     uint64_t trail, int depth);
-  /// Probability of the first child; negative if neither child can contribute.
-  double first_probability(const Node& node, const Vec3f& p, const Vec3f& n) const;
+  /// Probability of the first child; negative if neither child can contribute. `importance` is that
+  /// of a cluster.
+  template <class Importance>
+  double first_probability(const Node& node, const Importance& importance) const;
+  template <class Importance>
+  std::optional<Choice> sample(const Importance& importance, double u, double probability) const;
+  template <class Importance>
+  double pmf(const Importance& importance, int light, double probability) const;
 
   std::vector<Node> nodes_;
   std::vector<Trail> trails_;

@@ -79,8 +79,18 @@ class Recorder {
     x.p = v.p;
     x.phase = v.phase;
     vertices.push_back(x);
-    if (wants_direct)
-      direct.push_back(sample_direct(scene_, Receiver::of(v, walk.medium), walk.lambda, sampler));
+    if (!wants_direct) return;
+    EXPECT_EQ(v.lit_along, samples_light_along(v.medium, walk.lambda));
+    direct.push_back(
+        v.lit_along ? std::nullopt
+                    : sample_direct(scene_, Receiver::of(v, walk.medium), walk.lambda, sampler));
+  }
+  bool looks_along(const Medium&) const { return wants_direct; }
+  void light_along(const Walk& walk, const FlightLight& found, PathSampler&) {
+    Vertex x;
+    x.p = found.vertex.p;
+    x.phase = found.vertex.phase;
+    along[walk.events].push_back({x, found.direct});
   }
   bool scatter(const Walk& walk, const WalkEvent&) {
     vertices.back().delta = walk.delta;
@@ -90,6 +100,8 @@ class Recorder {
   bool wants_direct = false;
   std::vector<Vertex> vertices;
   std::vector<std::optional<DirectSample>> direct;
+  /// [events before it] light samples of flights, with the vertices that they make.
+  std::map<int, std::vector<std::pair<Vertex, DirectSample>>> along;
   std::map<int, LightEnd> hits;  ///< [events before it]
 
  private:
@@ -298,6 +310,15 @@ TEST_P(PathPair, WeightsAreThoseOfBruteForce) {
           if (s == 0) {
             vertices.assign(eye.vertices.begin(), eye.vertices.begin() + t - 2);
             end = eye.hits.at(t - 2);
+          } else if (const auto& lit = eye.along[t - 2]; s == 1 && !lit.empty()) {
+            // The sum cannot tell several light samples apart.
+            if (lit.size() > 1 || (eye.direct.size() >= from_eye && eye.direct[from_eye - 1]))
+              continue;
+            vertices.assign(eye.vertices.begin(),
+                            eye.vertices.begin() + static_cast<std::ptrdiff_t>(from_eye) - 1);
+            vertices.push_back(lit[0].first);
+            const DirectSample& d = lit[0].second;
+            end = {d.light, d.p, d.ng, d.wi_world};
           } else {
             ASSERT_LE(from_eye, eye.vertices.size());
             vertices.assign(eye.vertices.begin(),

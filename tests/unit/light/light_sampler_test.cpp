@@ -247,6 +247,47 @@ TEST(LightSampler, ManyLightsKeepTheirProbabilities) {
   EXPECT_GT(chi_square_test(observed, expected), 1e-4);
 }
 
+TEST(LightSampler, AlongARayProbabilitiesAreThoseOfTheSamples) {
+  const Ray ray{Vec3f(-0.5f, 0.4f, 0.3f), normalize(Vec3f(1, 0.1f, 0.2f)), kInfinity, 0};
+  for (const int n : {3, 60}) {
+    const LightSampler sampler(zoo(n, 2));
+    constexpr int kCount = 100000;
+    std::vector<double> observed(n + 2), expected(n + 2);
+    TestRandom random(31);
+    for (int i = 0; i < kCount; ++i) {
+      const auto chosen = sampler.sample_along(ray, 2.5f, random.next());
+      ASSERT_TRUE(chosen.has_value());
+      if (chosen->light < 0) continue;
+      ++observed[chosen->light];
+      const auto found = sampler.find_along(ray, 2.5f, chosen->light);
+      ASSERT_TRUE(found.has_value());
+      EXPECT_FLOAT_EQ(chosen->pdf_p, found->pdf_p);
+      const float t = chosen->distances.sample(random.next());
+      EXPECT_GT(chosen->pdf(t), 0.0f);
+      EXPECT_FLOAT_EQ(chosen->pdf(t), found->pdf(t));
+    }
+    for (int l = 0; l < n + 2; ++l)
+      if (const auto found = sampler.find_along(ray, 2.5f, l))
+        expected[l] = kCount * static_cast<double>(found->pdf_p);
+    EXPECT_EQ(expected[0] + expected[1], 0) << "infinite lights";
+    EXPECT_GT(chi_square_test(observed, expected), 1e-4) << n;
+  }
+}
+
+TEST(LightSampler, AlongARayThatNoLightShinesOn) {
+  std::vector<LightPtr> lights;
+  for (int i = 0; i < 6; ++i) {
+    const LightSampler sampler(lights);
+    const Ray behind{Vec3f(-1, 0, -3), Vec3f(1, 0, 0), kInfinity, 0};
+    // A tree can notice it late.
+    const auto chosen = sampler.sample_along(behind, 5, 0.5f);
+    EXPECT_TRUE(!chosen || chosen->light < 0) << i;
+    EXPECT_FALSE(sampler.find_along(behind, 5, 0)) << i;
+    lights.push_back(light_of("LightSource \"spot\" \"point3 from\" [0 0 " + std::to_string(i) +
+                              "] \"point3 to\" [0 0 9]"));
+  }
+}
+
 TEST(LightTree, StaysShallowForAwkwardPlaces) {
   const auto depth = [](const std::function<Vec3f(int)>& place, int n) {
     std::vector<LightTree::Item> items;

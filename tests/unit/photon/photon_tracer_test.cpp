@@ -272,8 +272,8 @@ TEST(PhotonTracer, RecordsTheLightPathOfEachPhoton) {
         trace_photons_of_path(*scene, owned, s, j, into);
       },
       [&](int64_t j) { return record_photon_path(*scene, owned, s, j); });
-  ASSERT_GT(photons.grid().size(), 500u);
-  for (const Photon& photon : photons.grid().photons()) {
+  ASSERT_GT(photons.maps().surfaces().size(), 500u);
+  for (const Photon& photon : photons.maps().surfaces().photons()) {
     const LightPathRecord& path = photons.of(photon);
     EXPECT_EQ(owned.symbols->lamp(path.light), photon.lamp);
     ASSERT_GE(path.walk.events.size(), photon.events);

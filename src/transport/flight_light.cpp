@@ -1,0 +1,149 @@
+#include "transport/flight_light.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace nephroid {
+
+namespace {
+
+/// Distances at which a flight through a uniform medium collides, for a wavelength chosen among
+/// those of the flight. Distances beyond t_max are left out.
+class CollisionDistances {
+ public:
+  CollisionDistances(const SampledSpectrum& sigma_t, float t_max, int left)
+      : sigma_t_(sigma_t), t_max_(t_max) {
+    for (int i = 0; i < kSpectrumSamples; ++i) {
+      if (left != kAllWavelengths && i != left) continue;
+      // Without collisions an endless flight has no distances.
+      if (sigma_t[i] > 0.0f || (t_max < kInfinity && sigma_t[i] == 0.0f)) chosen_[count_++] = i;
+    }
+  }
+  bool empty() const { return count_ == 0 || !(t_max_ > 0.0f); }
+
+  /// Mean optical thickness of the flight.
+  float thickness() const {
+    float sum = 0;
+    for (int k = 0; k < count_; ++k) sum += sigma_t_[chosen_[k]];
+    return sum * t_max_ / static_cast<float>(count_);
+  }
+  float sample(float u, float u_wavelength) const {
+    const int k = std::min(static_cast<int>(u_wavelength * static_cast<float>(count_)), count_ - 1);
+    const float sigma = sigma_t_[chosen_[k]];
+    if (sigma == 0.0f) return u * t_max_;
+    return std::min(-std::log1p(-u * collided(sigma)) / sigma, t_max_);
+  }
+  float pdf(float t) const {
+    float sum = 0;
+    for (int k = 0; k < count_; ++k) {
+      const float sigma = sigma_t_[chosen_[k]];
+      sum += sigma == 0.0f ? 1.0f / t_max_ : sigma * std::exp(-sigma * t) / collided(sigma);
+    }
+    return sum / static_cast<float>(count_);
+  }
+
+ private:
+  /// Probability that a flight collides before t_max.
+  float collided(float sigma) const { return -std::expm1(-sigma * t_max_); }
+
+  const SampledSpectrum& sigma_t_;
+  const float t_max_;
+  int chosen_[kSpectrumSamples] = {};  ///< wavelengths that have distances
+  int count_ = 0;
+};
+
+/// The place of a sample: half of them or more are near a bounded light, if one shines on the ray.
+struct PointAndLight {
+  float t = 0;
+  LightChoice light;  ///< with its probability in next-event estimation at the point
+  float density = 0;  ///< of the point and the light
+};
+
+std::optional<PointAndLight> sample_point(const LightSampler& lights, const Ray& ray, float t_max,
+                                          const CollisionDistances& collisions,
+                                          FlightRandom& random, float u_light) {
+  float u = random.next();
+  std::optional<LightAlong> near = lights.sample_along(ray, t_max, random.next());
+  float share = near ? 0.5f : 0.0f;
+  // In thin media the bounded lights alone decide which points are bright.
+  if (near && lights.infinite_lights().empty())
+    share += 0.4f / (1.0f + 0.25f * sqr(collisions.thickness()));
+  const Vec3f no_normal(0, 0, 0);
+  PointAndLight s;
+  if (u < share) {
+    if (near->light < 0) return std::nullopt;
+    u /= share;
+    s.t = near->distances.sample(u);
+    s.light = {near->light, lights.pmf(ray.o + ray.d * s.t, no_normal, near->light)};
+  } else {
+    u = std::min((u - share) / (1.0f - share), kOneMinusEpsilon);
+    s.t = collisions.sample(u, random.next());
+    const auto choice = lights.sample(ray.o + ray.d * s.t, no_normal, u_light);
+    if (!choice) return std::nullopt;
+    s.light = *choice;
+    if (near && near->light != choice->light) near = lights.find_along(ray, t_max, choice->light);
+  }
+  s.density = (1.0f - share) * s.light.pdf_p * collisions.pdf(s.t);
+  if (near) s.density += share * near->pdf(s.t);
+  if (!(s.light.pdf_p > 0.0f) || !(s.density > 0.0f) || !std::isfinite(s.density))
+    return std::nullopt;
+  return s;
+}
+
+/// The light of the sample at the point, not yet scattered.
+std::optional<FlightLight> light_at(const Scene& scene, const Medium& medium, const Walk& walk,
+                                    float t, HenyeyGreenstein phase, LightChoice choice,
+                                    const Vec2f& u) {
+  FlightLight found{
+      {medium, walk.ray.o + walk.ray.d * t, -walk.ray.d, phase, walk.ray.time}, {}, {}, {}};
+  const auto direct =
+      sample_direct(scene, Receiver::of(found.vertex, &medium), choice, u, walk.lambda);
+  if (!direct) return std::nullopt;
+  found.direct = *direct;
+  return found;
+}
+
+std::optional<FlightLight> sample_collision_light(const Scene& scene, const Medium& medium,
+                                                  const Walk& walk, float t_max,
+                                                  FlightRandom& random, float u_light,
+                                                  const Vec2f& u) {
+  assert(walk.per_wavelength);
+  SampledSpectrum throughput = walk.throughput;
+  const std::optional<Collision> collision =
+      fly_per_wavelength(medium, walk.ray, t_max, walk.lambda, random, throughput);
+  if (!collision) return std::nullopt;
+  const auto choice =
+      scene.light_sampler->sample(walk.ray.o + walk.ray.d * collision->t, Vec3f(0, 0, 0), u_light);
+  if (!choice) return std::nullopt;
+  auto found = light_at(scene, medium, walk, collision->t, collision->phase, *choice, u);
+  if (!found) return std::nullopt;
+  found->throughput = throughput;
+  found->collision = SampledSpectrum(1.0f);
+  return found;
+}
+
+}  // namespace
+
+std::optional<FlightLight> sample_flight_light(const Scene& scene, const Medium& medium,
+                                               const Walk& walk, float t_max, FlightRandom& random,
+                                               float u_light, const Vec2f& u) {
+  if (!samples_light_along(medium, walk.lambda))
+    return sample_collision_light(scene, medium, walk, t_max, random, u_light, u);
+  const MediumProperties m = medium.at(walk.ray.o, walk.lambda);
+  const SampledSpectrum sigma_t = m.sigma_a + m.sigma_s;
+  const CollisionDistances collisions(sigma_t, t_max, walk.lambda.left());
+  if (collisions.empty()) return std::nullopt;
+  const std::optional<PointAndLight> s =
+      sample_point(*scene.light_sampler, walk.ray, t_max, collisions, random, u_light);
+  if (!s) return std::nullopt;
+  auto found = light_at(scene, medium, walk, s->t, m.phase, s->light, u);
+  if (!found) return std::nullopt;
+  found->direct.radiance *= s->light.pdf_p / s->density;
+  const SampledSpectrum through = sigma_t.map([&](float sigma) { return std::exp(-sigma * s->t); });
+  found->throughput = walk.throughput * through * m.sigma_s;
+  found->collision =
+      walk.per_wavelength ? SampledSpectrum(1.0f) : walk.density.u * through * sigma_t;
+  return found;
+}
+
+}  // namespace nephroid

@@ -1,0 +1,33 @@
+// Direct light that a uniform medium scatters into a flight: found at a point sampled along the
+// whole flight, whether or not the walk collides there ([V7] in docs/estimators.md). It must not
+// know routes, walks or films.
+#pragma once
+
+#include <optional>
+
+#include "transport/direct_light.h"
+
+namespace nephroid {
+
+/// A point on a flight that scatters the light of a light sample towards the flight's origin.
+struct FlightLight {
+  MediumVertex vertex;
+  DirectSample direct;         ///< `radiance` is divided by the density of the point, too
+  SampledSpectrum throughput;  ///< of the walk, if it scatters at the point
+  SampledSpectrum collision;   ///< r_u of a walk that collides at the point, up to a factor
+};
+
+/// True if direct light in this medium is sampled along flights.
+inline bool samples_light_along(const Medium& medium, const SampledWavelengths& lambda) {
+  return medium.uniform_extinction(lambda).has_value();
+}
+
+/// Samples a point on the walk's next flight, up to `t_max`, which may be infinite, then a light
+/// and a point on it. In a medium that varies in space the point is a collision, and the walk must
+/// keep its wavelengths apart. The first of the `random` numbers chooses the point, `u_light` and
+/// `u` the light. Empty if no light can arrive.
+std::optional<FlightLight> sample_flight_light(const Scene& scene, const Medium& medium,
+                                               const Walk& walk, float t_max, FlightRandom& random,
+                                               float u_light, const Vec2f& u);
+
+}  // namespace nephroid

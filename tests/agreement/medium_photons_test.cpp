@@ -1,0 +1,78 @@
+// Photons of media: camera paths that merge them along their flights find the same picture as
+// camera paths that scatter there themselves, and caustics in the medium besides.
+#include <gtest/gtest.h>
+
+#include "caster_pictures.h"
+
+namespace nephroid {
+namespace {
+
+using namespace testing_support;
+
+PairTechniques gathering_in_media() {
+  return {.light_paths = 16384,
+          .connects = false,
+          .casters = ClassMask::kAll,
+          .gathers_in_media = true};
+}
+
+struct FogOf {
+  const char* name;
+  const char* medium;
+};
+// Absorption and scattering vary with wavelength.
+const FogOf kFogs[] = {{"uniform", R"("string type" "homogeneous" "float g" 0.4
+        "rgb sigma_a" [0.1 0.2 0.3] "rgb sigma_s" [0.6 0.4 0.3])"},
+                       {"grid", R"("string type" "uniformgrid" "float g" -0.3
+        "integer nx" 2 "integer ny" 2 "integer nz" 2 "point3 p0" [-3 -0.5 -3] "point3 p1" [3 3.5 3]
+        "float density" [0.2 1 1 0.4 0.9 0.1 0.3 0.8]
+        "rgb sigma_a" [0.1 0.2 0.3] "rgb sigma_s" [1.2 0.9 0.7])"}};
+
+/// Floor, a ball and a lamp in a box of fog, which begins below the camera.
+std::string in_fog(const FogOf& fog, const std::string& things) {
+  return "MakeNamedMedium \"fog\" " + std::string(fog.medium) + R"(
+    AttributeBegin
+      Material "interface" MediumInterface "fog" ""
+      Translate 0 1.5 0 Scale 2.5 1.9 2.5
+      Shape "trianglemesh" "point3 P" [-1 -1 -1  1 -1 -1  1 1 -1  -1 1 -1  -1 -1 1  1 -1 1  1 1 1  -1 1 1]
+        "integer indices" [0 2 1 0 3 2  4 5 6 4 6 7  0 1 5 0 5 4  3 7 6 3 6 2  0 4 7 0 7 3  1 2 6 1 6 5]
+    AttributeEnd
+    MediumInterface "fog" "fog"
+  )" + things;
+}
+
+const char* const kDiffuseBall = R"(
+  AttributeBegin Translate 0.9 2.2 0.5 Rotate 90 1 0 0
+  AreaLightSource "diffuse" "rgb L" [20 18 16] "bool twosided" true
+  Shape "disk" "float radius" 0.3 AttributeEnd
+  Material "diffuse" "rgb reflectance" [0.7 0.5 0.3]
+  AttributeBegin Translate -0.5 0.6 0 Shape "sphere" "float radius" 0.5 AttributeEnd)";
+
+class MediumPhotonsIn : public ::testing::TestWithParam<FogOf> {};
+
+TEST_P(MediumPhotonsIn, FindWhatWalksAloneFind) {
+  const CasterPictures of{PairView(in_fog(GetParam(), kDiffuseBall))};
+  expect_equal(of.pictures(gathering_in_media(), 1, 16),
+               of.pictures(camera_paths_only(), 1000, 256), GetParam().name);
+}
+
+TEST_P(MediumPhotonsIn, FindWhatWalksFindBehindGlass) {
+  // The camera looks through a pane of glass, and the fog scatters what a mirror sends.
+  const CasterPictures of{PairView(in_fog(GetParam(), R"(
+    AttributeBegin Translate 0.9 2.2 0.5 Rotate 90 1 0 0
+    AreaLightSource "diffuse" "rgb L" [20 18 16] "bool twosided" true
+    Shape "disk" "float radius" 0.5 AttributeEnd
+    AttributeBegin Material "thindielectric"
+      Shape "bilinearmesh" "point3 P" [-1 1.5 -1.5  0 1.5 -1.5  -1 1.5 0.5  0 1.5 0.5]
+    AttributeEnd
+    Material "conductor" "float roughness" 0
+    Shape "bilinearmesh" "point3 P" [-1.5 0.2 1  1 0.2 1  -1.5 1.8 1.4  1 1.8 1.4])"))};
+  expect_equal(of.pictures(gathering_in_media(), 1, 16),
+               of.pictures(camera_paths_only(), 1000, 256), GetParam().name);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fog, MediumPhotonsIn, ::testing::ValuesIn(kFogs),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace nephroid
