@@ -1,5 +1,8 @@
 #include "photon/photon_maps.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace nephroid {
 
 PhotonMaps::PhotonMaps(std::vector<Photon> photons,
@@ -19,8 +22,11 @@ PhotonMaps::Parts PhotonMaps::divided(std::vector<Photon> photons, bool keeps_or
   if (keeps_order)
     for (uint32_t i = 0; i < photons.size(); ++i)
       (in_medium(photons[i]) ? parts.places_of_media : parts.places_of_surfaces).push_back(i);
-  std::ranges::copy_if(photons, std::back_inserter(parts.of_media), in_medium);
-  std::erase_if(photons, in_medium);
+  if (const auto count = std::ranges::count_if(photons, in_medium); count > 0) {
+    parts.of_media.reserve(static_cast<size_t>(count));
+    std::ranges::copy_if(photons, std::back_inserter(parts.of_media), in_medium);
+    std::erase_if(photons, in_medium);
+  }
   parts.of_surfaces = std::move(photons);
   return parts;
 }

@@ -13,6 +13,16 @@ constexpr uint64_t kVcmLightStream = 0x76636d6c;  // "vcml"
 constexpr int64_t kBatchChunk = 1024;
 constexpr int64_t kBatchGroup = 32 * kBatchChunk;
 
+float median_distance_in_media(const std::vector<Photon>& photons, const Vec3f& eye) {
+  std::vector<float> distances;
+  for (const Photon& photon : photons)
+    if (photon.medium >= 0) distances.push_back(length(photon.p - eye));
+  if (distances.empty()) return 0;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
 }  // namespace
 
 template <class F>
@@ -94,6 +104,8 @@ std::vector<Photon> LightBatches::next(const std::function<void(std::span<const 
       statistics.photon_paths_useful += chunk.useful;
       statistics.photon_paths_specular += chunk.specular;
     }
+    if (begin_ == count)
+      media_distance_ = median_distance_in_media(photons, settings_.merging->eye);
     expose(splats);
     statistics.splats += splats.size();
   }

@@ -36,6 +36,11 @@ class LightBatches {
   std::vector<Photon> next(const std::function<void(std::span<const Splat>)>& expose,
                            EstimatorStatistics& statistics);
 
+  /// Median distance from the eye of the photons in media that the first light paths of the pass
+  /// left, however large the batches are; 0 if there are none. Known after the first call of
+  /// next().
+  float media_distance() const { return media_distance_; }
+
   /// Traces light path `j` of the pass alone. Adds its connections to `seen`, its photons to
   /// `photons`.
   LightPathCounts trace_path(int64_t j, std::vector<CameraSplat>& seen,
@@ -61,6 +66,7 @@ class LightBatches {
   const PairSettings& settings_;
   const PartSums places_;
   int64_t begin_ = 0;  ///< number of the next light path
+  float media_distance_ = 0;
 };
 
 }  // namespace nephroid

@@ -55,8 +55,9 @@ class PairRendering {
     };
     start_batches();
     std::vector<Photon> photons = batches->next(add_splats, statistics);
+    media_distance_ = batches->media_distance();
     if (batches->empty() && !s_.merging.connects) {
-      s_.use(std::move(photons));
+      s_.use(std::move(photons), media_distance_);
       render_pixels(statistics);
       statistics.hold(s_.photon_bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
                       to_.paths ? bytes_of_measuring(0) : 0);
@@ -157,7 +158,7 @@ class PairRendering {
   void render_batch(std::vector<Photon> photons, bool is_last, EstimatorStatistics& statistics) {
     if (clamps() && clamped_.empty() && !is_last && !s_.settings.merges_only)
       clamped_.resize(s_.format.bounds().area() * s_.most, s_.parts);
-    s_.use(std::move(photons));
+    s_.use(std::move(photons), media_distance_);
     trace_eye_paths(statistics);
     statistics.hold(
         s_.photon_bytes() + s_.records.bytes() + s_.camera.directions.bytes(),
@@ -203,7 +204,7 @@ class PairRendering {
 
   /// Counts the photons of a batch that each sample merges, for [W12].
   void count_merged(std::vector<Photon> photons, EstimatorStatistics& statistics) {
-    s_.use(std::move(photons));
+    s_.use(std::move(photons), media_distance_);
     s_.settings.merges_only = true;
     const PixelSlices slices(s_.format.bounds());
     const auto count_slice = [&](PairRow& row, size_t slice) {
@@ -331,8 +332,9 @@ class PairRendering {
 
   PairSampler s_;
   const Destinations& to_;
-  std::vector<Rgb> values_;  ///< [pixel * parts + part]
-  std::vector<float> bias_;  ///< [pixel] bias of [E4]
+  float media_distance_ = 0;  ///< as in PairMerging
+  std::vector<Rgb> values_;   ///< [pixel * parts + part]
+  std::vector<float> bias_;   ///< [pixel] bias of [E4]
   std::optional<MeasuredSamples> measured_;
   /// [pixel * most + sample] photons merged from all batches; empty if there is one batch.
   std::vector<uint32_t> merged_;

@@ -42,16 +42,22 @@ void record_pixel(PairPass pass, const PixelPass& pixel, const RadianceGuide& di
   const SampleMap chains(format.bounds(), separates_chains ? samples : uint16_t{0});
   const CameraSide camera{paths, &chains, directions};
   PairSampler sampler(pass, format, camera, nullptr, nullptr, PassRecords::kMaxPerPath);
-  const LightBatches batches({.light_paths = pass.techniques.light_paths,
-                              .seed = pass.seed,
-                              .number_varies = pass.light_paths_vary},
-                             sampler.photons, sampler.settings);
+  LightBatches batches({.light_paths = pass.techniques.light_paths,
+                        .memory_photons = 1,  // one group of paths tells the distance
+                        .seed = pass.seed,
+                        .number_varies = pass.light_paths_vary},
+                       sampler.photons, sampler.settings);
+  if (pass.techniques.gathers_in_media) {
+    EstimatorStatistics unused;
+    batches.next([](std::span<const Splat>) {}, unused);
+    sampler.merging.media_distance = batches.media_distance();
+  }
   std::vector<CameraSplat> seen;
   PhotonHistories photons(
       pass.techniques.light_paths,
       [&](int64_t j, std::vector<Photon>& into) { batches.trace_path(j, seen, into); },
       [&](int64_t j) { return batches.record_path(j); },
-      [&](const Vec3f& p) { return sampler.merging.radius_at(p); });
+      [&](const Vec3f& p) { return sampler.merging.radius_in_media_at(p); });
   sampler.merging.merge(photons.maps());
   tally.use(photons);
   PairRow row;

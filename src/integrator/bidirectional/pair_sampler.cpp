@@ -1,6 +1,5 @@
 #include "integrator/bidirectional/pair_sampler.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -17,18 +16,6 @@ constexpr uint64_t kPairStream = 0x76636d70;    // "vcmp"
 /// Number of pixels: all of the film; without a film those of the first lattice.
 size_t pixels_of(const FilmFormat& format, const Film* film) {
   return film != nullptr ? format.bounds().area() : PixelSlices(format.bounds()).first_pixels();
-}
-
-/// The median distance of photons in media. Nearer ones are merged in discs as wide as there: with
-/// the footprint of a pixel right before the camera, single photons would be bright dots.
-float median_distance_in_media(const std::vector<Photon>& photons, const Vec3f& eye) {
-  std::vector<float> distances;
-  for (const Photon& photon : photons)
-    if (photon.medium >= 0) distances.push_back(length(photon.p - eye));
-  if (distances.empty()) return 0;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
 }
 
 }  // namespace
@@ -115,13 +102,10 @@ CameraPath PairSampler::start(int x, int y, int k, PathSampler& sampler) const {
   return path;
 }
 
-void PairSampler::use(std::vector<Photon> photons_of_pass) {
-  // A flight passes photons at all distances, a surface has those of one place.
-  const float radius_pixels = 0.5f * merging.radius_pixels;
-  const float least = median_distance_in_media(photons_of_pass, merging.eye);
-  maps_.emplace(std::move(photons_of_pass), [&](const Vec3f& p) {
-    return radius_pixels * merging.footprint.width(std::max(length(p - merging.eye), least));
-  });
+void PairSampler::use(std::vector<Photon> photons_of_pass, float media_distance) {
+  merging.media_distance = media_distance;
+  maps_.emplace(std::move(photons_of_pass),
+                [&](const Vec3f& p) { return merging.radius_in_media_at(p); });
   merging.merge(*maps_);
 }
 

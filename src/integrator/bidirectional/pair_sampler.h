@@ -84,8 +84,9 @@ class PairSampler {
                     uint32_t* merged = nullptr);
   /// Adds the number of photons of a batch that the sample merges to `merged`.
   void count_merged(int x, int y, int samples, int k, Worker& worker, uint32_t& merged);
-  /// Sorts photons, which are merged until they are forgotten.
-  void use(std::vector<Photon> photons);
+  /// Sorts photons, which are merged until they are forgotten. `media_distance` is that of
+  /// PairMerging.
+  void use(std::vector<Photon> photons, float media_distance);
   void forget_photons();
   size_t photon_bytes() const { return maps_ ? maps_->bytes() : 0; }
   size_t pixel_of(int x, int y) const {

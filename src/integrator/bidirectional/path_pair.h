@@ -4,6 +4,7 @@
 // must not know passes or the film's sums.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -33,7 +34,10 @@ struct PairMerging {
   /// there are none.
   const MediumPhotons* media = nullptr;
   bool gathers_in_media = false;  ///< photons of media are stored, and merged as above
-  double photons = 1;             ///< light paths that left them, N of [W8]
+  /// d of [V8]. Nearer photons are merged in discs as wide as there: with the footprint of a pixel
+  /// right before the camera, single photons would be bright dots.
+  float media_distance = 0;
+  double photons = 1;  ///< light paths that left them, N of [W8]
   float radius_pixels = 0;
   PixelFootprint footprint;
   Vec3f eye{0, 0, 0};  ///< origin of distances
@@ -56,6 +60,11 @@ struct PairMerging {
   /// of the path. At a later one the eye's part counts once, so it would have next to no weight.
   bool merges_once() const { return rule.holds_in_front() && !connects; }
   float radius_at(const Vec3f& p) const { return radius_pixels * footprint.width(length(p - eye)); }
+  /// Radius of the disc of a photon in a medium. It is smaller than on a surface: a flight passes
+  /// photons at all distances.
+  float radius_in_media_at(const Vec3f& p) const {
+    return 0.5f * radius_pixels * footprint.width(std::max(length(p - eye), media_distance));
+  }
   /// m of [W8]. `first`: only delta lobes lie between the eye and `p`, so each photon is a sample
   /// of its own. Else all photons share the way there, and it counts once.
   double weight_at(const Vec3f& p, bool first) const {
