@@ -1,9 +1,9 @@
 #include "photon/medium_photons.h"
 
 #include <bit>
-#include <numeric>
+#include <limits>
 
-#include "photon/morton.h"
+#include "photon/photon_order.h"
 
 namespace nephroid {
 
@@ -23,39 +23,21 @@ MediumPhotons::MediumPhotons(std::vector<Photon> photons,
   const auto cell = [&](float x, int axis) {
     return static_cast<uint32_t>(std::min((x - min[axis]) / extent * kCells, kCells - 1));
   };
-  struct Key {
-    uint64_t code = 0;
-    uint32_t photon = 0;
-  };
-  std::vector<Key> keys(photons_.size());
-  for (uint32_t i = 0; i < keys.size(); ++i) {
-    const Vec3f& p = photons_[i].p;
-    keys[i] = {morton_code(cell(p.x, 0), cell(p.y, 1), cell(p.z, 2)), i};
-  }
-  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-    return a.code != b.code ? a.code < b.code : a.photon < b.photon;
-  });
-  std::vector<Photon> sorted;
   std::vector<uint64_t> codes;
-  sorted.reserve(keys.size());
-  codes.reserve(keys.size());
-  for (const Key& key : keys) {
-    sorted.push_back(photons_[key.photon]);
-    codes.push_back(key.code);
-  }
-  if (order != nullptr) {
-    order->clear();
-    for (const Key& key : keys) order->push_back(key.photon);
-  }
-  bytes_ =
-      2 * photons_.capacity() * sizeof(Photon) + keys.size() * (sizeof(Key) + sizeof(uint64_t));
-  keys = {};
-  photons_ = std::move(sorted);
+  codes.reserve(photons_.size());
+  for (const Photon& photon : photons_)
+    codes.push_back(morton_code(cell(photon.p.x, 0), cell(photon.p.y, 1), cell(photon.p.z, 2)));
+  std::vector<uint32_t> places = sort_codes(codes);
+  const size_t of_photons = photons_.capacity() * sizeof(Photon);
+  bytes_ = of_photons + photons_.size() * kBytesToSortCode;
+  if (order != nullptr) *order = places;
+  take_in_order(photons_, places);
+  places = {};
   radii_.reserve(photons_.size());
   for (const Photon& photon : photons_) radii_.push_back(radius_at(photon.p));
   nodes_.reserve(photons_.size());
   build(0, static_cast<uint32_t>(photons_.size()), codes);
-  bytes_ = std::max(bytes_, photons_.capacity() * sizeof(Photon) + codes.size() * sizeof(uint64_t) +
+  bytes_ = std::max(bytes_, of_photons + codes.size() * sizeof(uint64_t) +
                                 radii_.size() * sizeof(float) + nodes_.capacity() * sizeof(Node));
 }
 

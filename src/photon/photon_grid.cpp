@@ -1,10 +1,10 @@
 #include "photon/photon_grid.h"
 
 #include <array>
-#include <numeric>
+#include <utility>
 
 #include "core/sampler.h"
-#include "photon/morton.h"
+#include "photon/photon_order.h"
 
 namespace nephroid {
 
@@ -33,33 +33,6 @@ size_t mean_neighbours(int shift, const std::vector<uint64_t>& codes) {
     pairs += (end - begin) * (end - begin);
   }
   return pairs / codes.size();
-}
-
-/// Moves photon order[i] to place i, in place. Overwrites `order`. The places are far apart, so a
-/// second index runs ahead along the cycle and prefetches the photons to be moved next.
-void take_in_order(std::vector<Photon>& photons, std::vector<uint32_t>& order) {
-  constexpr int kAhead = 12;
-  for (uint32_t first = 0; first < order.size(); ++first) {
-    if (order[first] == first) continue;
-    uint32_t ahead = first;
-    const auto run_ahead = [&] {
-      if (order[ahead] == first) return;
-      ahead = order[ahead];
-      const char* photon = reinterpret_cast<const char*>(&photons[ahead]);
-      __builtin_prefetch(photon, 1);
-      __builtin_prefetch(photon + sizeof(Photon) - 1, 1);
-    };
-    for (int i = 0; i < kAhead; ++i) run_ahead();
-    const Photon moved = photons[first];
-    uint32_t to = first;
-    while (order[to] != first) {
-      run_ahead();
-      photons[to] = photons[order[to]];
-      to = std::exchange(order[to], to);
-    }
-    photons[to] = moved;
-    order[to] = to;
-  }
 }
 
 }  // namespace
@@ -116,34 +89,15 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons, std::vector<uint32_t>* order
   bytes_ = std::max(bytes_, total);
 }
 
-// Stable radix sort by Morton code, 11 bits at a time, so that photons of one cell keep the order
-// in which they were traced.
 std::vector<uint64_t> PhotonGrid::sort(std::vector<uint32_t>* order_of_all) {
   const size_t n = photons_.size();
-  std::vector<uint64_t> codes(n), codes_other(n);
-  std::vector<uint32_t> order(n), order_other(n);
+  std::vector<uint64_t> codes(n);
   for (size_t i = 0; i < n; ++i) {
     const Vec3f& p = photons_[i].p;
     codes[i] = morton_code(quantize(p.x, 0), quantize(p.y, 1), quantize(p.z, 2));
   }
-  std::iota(order.begin(), order.end(), 0u);
-  constexpr int kDigit = 11;
-  for (int shift = 0; shift < 3 * kCoordinateBits; shift += kDigit) {
-    std::array<uint32_t, 1 << kDigit> start{};
-    const auto digit = [&](uint64_t code) { return (code >> shift) & ((1u << kDigit) - 1); };
-    for (const uint64_t code : codes) ++start[digit(code)];
-    uint32_t sum = 0;
-    for (uint32_t& s : start) sum += std::exchange(s, sum);
-    for (size_t i = 0; i < n; ++i) {
-      const uint32_t to = start[digit(codes[i])]++;
-      codes_other[to] = codes[i];
-      order_other[to] = order[i];
-    }
-    codes.swap(codes_other);
-    order.swap(order_other);
-  }
-  bytes_ = photons_.capacity() * sizeof(Photon) +
-           n * (2 * sizeof(uint64_t) + 2 * sizeof(uint32_t) + sizeof(Vec3f));
+  std::vector<uint32_t> order = sort_codes(codes);
+  bytes_ = photons_.capacity() * sizeof(Photon) + n * (kBytesToSortCode + sizeof(Vec3f));
   if (order_of_all != nullptr) *order_of_all = order;
   take_in_order(photons_, order);
   positions_.resize(n);

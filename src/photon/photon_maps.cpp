@@ -1,7 +1,6 @@
 #include "photon/photon_maps.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace nephroid {
 
@@ -22,12 +21,15 @@ PhotonMaps::Parts PhotonMaps::divided(std::vector<Photon> photons, bool keeps_or
   if (keeps_order)
     for (uint32_t i = 0; i < photons.size(); ++i)
       (in_medium(photons[i]) ? parts.places_of_media : parts.places_of_surfaces).push_back(i);
-  if (const auto count = std::ranges::count_if(photons, in_medium); count > 0) {
-    parts.of_media.reserve(static_cast<size_t>(count));
-    std::ranges::copy_if(photons, std::back_inserter(parts.of_media), in_medium);
-    std::erase_if(photons, in_medium);
+  const auto count = static_cast<size_t>(std::ranges::count_if(photons, in_medium));
+  if (count == 0) {
+    parts.of_surfaces = std::move(photons);
+    return parts;
   }
-  parts.of_surfaces = std::move(photons);
+  parts.of_media.reserve(count);
+  parts.of_surfaces.reserve(photons.size() - count);
+  for (const Photon& photon : photons)
+    (in_medium(photon) ? parts.of_media : parts.of_surfaces).push_back(photon);
   return parts;
 }
 

@@ -65,16 +65,22 @@ struct ShapeRecord {
   MediumInterface media;       ///< media of leaving rays, if they differ
 };
 
+/// The medium that a surface names for its side to which `w` (world) points; `current` if it names
+/// none.
+inline const Medium* medium_beyond(const SurfaceInteraction& surface, const Vec3f& w,
+                                   const Medium* current) {
+  const MediumInterface& media = surface.record->media;
+  if (!media.is_transition()) return current;
+  return dot(w, surface.ng) > 0.0f ? media.outside : media.inside;
+}
+
 /// The medium on the side of a surface to which `w` (world) points, for light that arrived along
 /// surface.wo in `current`. On the side from which it came that is `current`, whatever the surface
 /// says: where the two differ, walks from the eye and from the light would see different scenes.
 inline const Medium* medium_towards(const SurfaceInteraction& surface, const Vec3f& w,
                                     const Medium* current) {
-  const MediumInterface& media = surface.record->media;
-  if (!media.is_transition()) return current;
-  const float side = dot(w, surface.ng);
-  if (side * dot(surface.wo, surface.ng) > 0.0f) return current;
-  return side > 0.0f ? media.outside : media.inside;
+  const bool stays = dot(w, surface.ng) * dot(surface.wo, surface.ng) > 0.0f;
+  return stays ? current : medium_beyond(surface, w, current);
 }
 
 struct ShapeGroup;

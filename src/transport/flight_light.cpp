@@ -30,14 +30,15 @@ class CollisionDistances {
   float sample(float u, float u_wavelength) const {
     const int k = std::min(static_cast<int>(u_wavelength * static_cast<float>(count_)), count_ - 1);
     const float sigma = sigma_t_[chosen_[k]];
-    if (sigma == 0.0f) return u * t_max_;
+    if (collided(sigma) == 0.0f) return u * t_max_;
     return std::min(-std::log1p(-u * collided(sigma)) / sigma, t_max_);
   }
   float pdf(float t) const {
     float sum = 0;
     for (int k = 0; k < count_; ++k) {
       const float sigma = sigma_t_[chosen_[k]];
-      sum += sigma == 0.0f ? 1.0f / t_max_ : sigma * std::exp(-sigma * t) / collided(sigma);
+      const float of_all = collided(sigma);
+      sum += of_all == 0.0f ? 1.0f / t_max_ : sigma * std::exp(-sigma * t) / of_all;
     }
     return sum / static_cast<float>(count_);
   }
@@ -52,7 +53,14 @@ class CollisionDistances {
   int count_ = 0;
 };
 
-/// The place of a sample: half of them or more are near a bounded light, if one shines on the ray.
+/// s of [V7], if a bounded light shines on the ray. In thin media bounded lights decide which
+/// points are bright, alone if there are no others. Most of a thick flight is too deep to be seen.
+float share_near_lights(float thickness, bool bounded_only) {
+  const float thin = bounded_only ? 0.5f + 0.4f / (1.0f + 0.25f * sqr(thickness)) : 0.5f;
+  return std::max(0.1f, thin / (1.0f + sqr(0.25f * thickness)));
+}
+
+/// The place of a light sample.
 struct PointAndLight {
   float t = 0;
   LightChoice light;  ///< with its probability in next-event estimation at the point
@@ -64,10 +72,8 @@ std::optional<PointAndLight> sample_point(const LightSampler& lights, const Ray&
                                           FlightRandom& random, float u_light) {
   float u = random.next();
   std::optional<LightAlong> near = lights.sample_along(ray, t_max, random.next());
-  float share = near ? 0.5f : 0.0f;
-  // In thin media the bounded lights alone decide which points are bright.
-  if (near && lights.infinite_lights().empty())
-    share += 0.4f / (1.0f + 0.25f * sqr(collisions.thickness()));
+  const float share =
+      near ? share_near_lights(collisions.thickness(), lights.infinite_lights().empty()) : 0.0f;
   const Vec3f no_normal(0, 0, 0);
   PointAndLight s;
   if (u < share) {

@@ -1,6 +1,6 @@
 // Direct light that a uniform medium scatters into a flight: found at a point sampled along the
 // whole flight, whether or not the walk collides there ([V7] in docs/estimators.md). It must not
-// know routes, walks or films.
+// know routes or films.
 #pragma once
 
 #include <optional>

@@ -81,19 +81,20 @@ bool survives(SampledSpectrum& through, float carried, FlightRandom& random) {
   return true;
 }
 
-/// Emission of a uniform medium towards the origin of a way of which `through` gets through.
-SampledSpectrum uniform_emission(const MediumProperties& m, const SampledSpectrum& through) {
+/// Radiance that `distance` of a uniform medium emits along a ray; the distance may be infinite.
+SampledSpectrum uniform_emission(const MediumProperties& m, float distance) {
   const SampledSpectrum sigma_t = extinction(m);
   SampledSpectrum emitted;
   for (int i = 0; i < kSpectrumSamples; ++i)
-    if (sigma_t[i] > 0.0f) emitted.set(i, m.le[i] * (m.sigma_a[i] / sigma_t[i]) * (1 - through[i]));
+    if (sigma_t[i] > 0.0f)
+      emitted.set(i, m.le[i] * (m.sigma_a[i] / sigma_t[i]) * -std::expm1(-sigma_t[i] * distance));
   return emitted;
 }
 
 /// Factor of the majorants at which emission along a ray is looked up about eight times, however
 /// thin the medium is.
 float emission_rate(MajorantIterator pieces) {
-  constexpr float kLookups = 8.0f, kMost = 1024.0f;
+  constexpr float kLookups = 8.0f, kMost = 1e30f;
   float depth = 0;
   while (const auto piece = pieces.next()) {
     const float sigma = piece->sigma_maj.max_component();
@@ -113,7 +114,7 @@ SampledSpectrum attenuation(const Medium& medium, const Ray& ray, float t_max,
   if (const auto sigma = medium.uniform_extinction(lambda)) {
     const SampledSpectrum through = beer(*sigma, t_max);
     if (emitted && medium.is_emissive())
-      *emitted += uniform_emission(medium.at(ray.o, lambda), through);
+      *emitted += uniform_emission(medium.at(ray.o, lambda), t_max);
     return through;
   }
   SampledSpectrum through(1.0f);
@@ -257,6 +258,7 @@ FlightTransmittance::FlightTransmittance(const Medium& medium, const Ray& ray, f
     steps_.push_back({steps.t(), goes_on ? through : SampledSpectrum(0.0f)});
     if (!goes_on) return;
   }
+  if (steps.given_up()) steps_.push_back({steps.t(), SampledSpectrum(0.0f)});
 }
 
 SampledSpectrum FlightTransmittance::at(float t) const {

@@ -80,7 +80,7 @@ std::optional<Collision> fly_per_wavelength(const Medium& medium, const Ray& ray
 
 /// Transmittance from the origin of a ray of unit direction to each point before `t_max`, unbiased
 /// at each wavelength by itself: in closed form if the extinction is uniform, else by one run of
-/// ratio tracking, which all points share. Its arguments must outlive it.
+/// ratio tracking, which all points share.
 class FlightTransmittance {
  public:
   FlightTransmittance(const Medium& medium, const Ray& ray, float t_max,

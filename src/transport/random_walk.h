@@ -98,9 +98,8 @@ class RandomWalk {
     }
     if constexpr (requires { visitor_.gathers_in(medium); })
       if (walk_.events < max_events_ && visitor_.gathers_in(medium)) {
-        // Merging takes more time than all of these shadow rays.
         constexpr int kSamples = 4;
-        light_along(medium, distance, kSamples);
+        if (visitor_.looks_along(medium)) light_along(medium, distance, kSamples);
         FlightRandom random = flight_random_.fork();
         visitor_.gather_along(walk_, medium, distance, random);
       }
@@ -139,7 +138,8 @@ class RandomWalk {
   void light_along(const Medium& medium, float distance, int samples) {
     if constexpr (requires { visitor_.looks_along(medium); }) {
       // The vertex at the end of the flight uses the same numbers, mirrored.
-      sampler_.start_dimension(walk_.vertex_dimension() + dimensions::kLight);
+      const int first = walk_.vertex_dimension() + dimensions::kLight;
+      sampler_.start_dimension(first);
       const float u_light = mirrored(sampler_.get_1d());
       const Vec2f u = sampler_.get_2d();
       const float u_point = light_random_.next();
@@ -151,9 +151,10 @@ class RandomWalk {
         const auto light = sample_flight_light(
             scene_, medium, walk_, distance, random, turned(u_light, n * 0.8191725f),
             {turned(mirrored(u.x), n * 0.6710436f), turned(mirrored(u.y), n * 0.5497005f)});
-        if (!light) continue;
+        if (!light || light->throughput.is_black()) continue;
         Walk there = walk_;
         there.throughput = light->throughput / static_cast<float>(samples);
+        sampler_.start_dimension(first + k);  // other random numbers for each shadow ray
         visitor_.light_along(there, *light, sampler_);
       }
     }
@@ -337,6 +338,7 @@ class RandomWalk {
     walk_.length += exit->surface.distance;
     walk_.throughput *= exit->weight;
     hit_ = exit->surface;
+    walk_.medium = medium_beyond(hit_, hit_.shading.z, walk_.medium);
     const Bsdf* bsdf = bssrdf->exit_bsdf(arena_);
     if (!bsdf) return false;
     // Both sides of a path must see the same letter: H if either end lies on a curve.

@@ -71,6 +71,31 @@ TEST_P(MediumPhotonsIn, FindWhatWalksFindBehindGlass) {
                of.pictures(camera_paths_only(), 1000, 256), GetParam().name);
 }
 
+// Light paths that are connected to the camera find the caustics of a point light in fog, too.
+TEST_P(MediumPhotonsIn, FindCausticsOfAPointLight) {
+  const CasterPictures of{PairView(in_fog(GetParam(), R"(
+    LightSource "point" "rgb I" [9 8 7] "point3 from" [0.5 2.6 0.2]
+    Material "dielectric" "spectrum eta" "glass-SF11"
+    AttributeBegin Translate 0.2 1.5 0 Shape "sphere" "float radius" 0.5 AttributeEnd
+    Material "conductor" "bool remaproughness" false "float roughness" 0.02
+    Shape "bilinearmesh" "point3 P" [-1.5 0.2 1  1 0.2 1  -1.5 1.8 1.4  1 1.8 1.4])"))};
+  const PairTechniques connecting{.light_paths = 16384, .connects = true};
+  expect_equal(of.pictures(gathering_in_media(), 1, 32), of.pictures(connecting, 1000, 32),
+               GetParam().name);
+}
+
+// The wall's upper side is in fog, but it names empty space for it.
+TEST_P(MediumPhotonsIn, AreThoseOfWalksWhereASurfaceNamesTheWrongMedium) {
+  const CasterPictures of{PairView(in_fog(GetParam(), std::string(kDiffuseBall) + R"(
+    MediumInterface "" "fog"
+    Material "diffuse" "rgb reflectance" [0.8 0.8 0.8]
+    Shape "bilinearmesh" "point3 P" [-2 0.1 -1  2 0.1 -1  -2 0.1 2  2 0.1 2]
+    ReverseOrientation
+    Shape "bilinearmesh" "point3 P" [-2 0.2 -1  -1 0.2 -1  -2 1.2 2  -1 1.2 2])"))};
+  expect_equal(of.pictures(gathering_in_media(), 1, 16),
+               of.pictures(camera_paths_only(), 1000, 256), GetParam().name);
+}
+
 INSTANTIATE_TEST_SUITE_P(Fog, MediumPhotonsIn, ::testing::ValuesIn(kFogs),
                          [](const auto& test) { return std::string(test.param.name); });
 

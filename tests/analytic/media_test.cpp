@@ -220,6 +220,19 @@ void expect_single_scattering(const MediumText& m, const std::string& integrator
   expect_mean(*scene, integrator, m.name, expected, 512, options);
 }
 
+// What thin gas emits is not lost in rounding.
+TEST(Media, GlowOfVeryThinGas) {
+  for (const double depth : {1e-4, 1e-8}) {
+    const std::string sigma = std::to_string(depth * 1e9 / 1.5) + "e-9";
+    const auto scene = scene_from_text(
+        camera() + "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb Le\" [ 2 2 2 ] " +
+        "\"spectrum sigma_a\" [ 300 " + sigma + " 900 " + sigma +
+        " ] \"spectrum sigma_s\" [ 300 0 900 0 ]" + "\"float Lescale\" " +
+        std::to_string(1 / depth) + kSlab);
+    expect_mean(*scene, "path", "thin gas", 2, 4);
+  }
+}
+
 TEST(Media, SingleScatteringOfAPointLight) {
   for (const MediumText& m : media(0.3, 0.5))
     expect_single_scattering(
@@ -240,6 +253,50 @@ TEST(Media, SingleScatteringOfASpotLight) {
   for (const MediumText& m : media(0.3, 0.5))
     for (const char* integrator : {"path", "bdpt"})
       expect_single_scattering(m, integrator, spot, smooth);
+}
+
+TEST(Media, SingleScatteringOfManyLampsWithoutEnd) {
+  // Lights in a tree, a flight that nothing ends, and wavelengths that are not scattered. Thin and
+  // dense.
+  const std::vector<Vec3f> lamps = {{0.8f, 0.3f, -0.4f}, {-0.5f, 0.1f, 1},  {0.2f, 0.1f, 3},
+                                    {0, -2, 6},          {0.05f, 0, -1.5f}, {-4, 0, 0}};
+  std::string lamp_text;
+  for (const Vec3f& p : lamps)
+    lamp_text += "LightSource \"point\" \"rgb I\" [ 5 5 5 ] \"point3 from\" [ " +
+                 std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) +
+                 " ]\n";
+  for (const double density : {0.1, 3.0}) {
+    const std::string a = std::to_string(0.2 * density), s = std::to_string(density);
+    const auto scene = scene_from_text(
+        camera("MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"spectrum sigma_a\" [ 300 " +
+                   a + " 900 " + a + " ] \"spectrum sigma_s\" [ 300 0 520 0 600 " + s + " 900 " +
+                   s + " ]\nMediumInterface \"m\" \"m\"\n",
+               0.05, -1.9) +
+        lamp_text);
+    IntegratorOptions options;
+    options.max_depth = 1;
+    const double expected = film_mean(
+        *scene,
+        [&](const SampledWavelengths& lambda) {
+          const MediumProperties m = scene->media[0]->at({0, 0, 0}, lambda);
+          const SampledSpectrum sigma_t = m.sigma_a + m.sigma_s;
+          SampledSpectrum sum;
+          constexpr int kSteps = 4000;
+          for (int i = 0; i < kSteps; ++i) {
+            // Steps grow with the distance.
+            const float u = (static_cast<float>(i) + 0.5f) / kSteps, t = 60 * sqr(u);
+            const float dt = 120 * u / kSteps;
+            for (const Vec3f& lamp : lamps) {
+              const float d = length(lamp - Vec3f(0, 0, -1.9f + t));
+              sum += exp(-(sigma_t * (t + d))) * m.sigma_s * (5 / (4 * kPi) * dt / sqr(d));
+            }
+          }
+          return sum * white(lambda);
+        },
+        256);
+    for (const char* integrator : {"path", "bdpt"})
+      expect_mean(*scene, integrator, density < 1 ? "thin" : "dense", expected, 256, options);
+  }
 }
 
 // A ball of the medium, whose surface has `material`.

@@ -101,9 +101,9 @@ void EyeVisitor::gather_along(const Walk& walk, const Medium& medium, float t_ma
   if (!merging.media || roulette_.counts()) return;
   const EyeState eye = routes_.next(eye_, symbol_in(symbols_, medium));
   const int left = walk.lambda.left();
-  // Made at the first photon: most flights have none.
+  // Made at the first photon: most flights have none. The phase function is the same everywhere.
   std::optional<FlightTransmittance> through;
-  const HenyeyGreenstein phase = medium.at(walk.ray.o, walk.lambda).phase;
+  HenyeyGreenstein phase;
   merging.media->query(walk.ray, t_max, [&](const Photon& photon, float t, float d2, float radius) {
     if (photon.medium != medium.index() || are_apart(left, photon.left) ||
         photon.events + walk.events + 1 > settings_.max_depth)
@@ -111,7 +111,10 @@ void EyeVisitor::gather_along(const Walk& walk, const Medium& medium, float t_ma
     roulette_.count_in_medium();
     const Part part = routes_.meet(eye, photon.state);
     if (!light_.owns(part)) return;
-    if (!through) through.emplace(medium, walk.ray, t_max, walk.lambda, random);
+    if (!through) {
+      through.emplace(medium, walk.ray, t_max, walk.lambda, random);
+      phase = medium.at(photon.p, walk.lambda).phase;
+    }
     const float scale = phase.eval(-walk.ray.d, photon.wi.unpacked()) /
                         (static_cast<float>(merging.photons) * kPi * sqr(radius));
     const SampledSpectrum whole = merged_spectrum(

@@ -107,9 +107,12 @@ class EyeVisitor {
   }
 
   bool looks_along(const Medium& medium) const {
-    return routes_.ends(group_, routes_.next(eye_, symbol_in(symbols_, medium)));
+    return !settings_.merges_only &&
+           routes_.ends(group_, routes_.next(eye_, symbol_in(symbols_, medium)));
   }
-  bool gathers_in(const Medium& medium) const { return gathers() && may_scatter_in(medium); }
+  bool gathers_in(const Medium& medium) const {
+    return gathers() && !medium.is_purely_absorbing() && may_scatter_in(medium);
+  }
   /// [V8] Merges the photons of a medium along the walk's next flight.
   void gather_along(const Walk& walk, const Medium& medium, float t_max, FlightRandom& random);
   // No MIS weight depends on where the walk itself collides ([V6]).
@@ -158,6 +161,7 @@ class EyeVisitor {
       may_merge_ = false;
     last_ = place_;
     first_ = first_ && !density.finite;
+    all_specular_ = all_specular_ && event.letter == EventClass::kSpecular;
     eye_ = routes_.next(eye_, symbol_of(symbols_, event));
     return first_ || !roulette_.counts();
   }
@@ -172,8 +176,8 @@ class EyeVisitor {
   bool makes(int light_vertices, const Walk& walk) const {
     return !settings_.merges_only && settings_.technique.makes(light_vertices, walk.events + 2);
   }
-  /// True if photons stand for all events of the walk in media, but for direct light.
-  bool gathers() const { return first_ && settings_.gathers_in_media(); }
+  /// True if the walk does not scatter in media: photons find its indirect light there.
+  bool gathers() const { return all_specular_ && settings_.gathers_in_media(); }
   /// [W7] `hit` as in direct_pdf_w(), the others as in light_start().
   double weight_of_hit(const Walk& walk, int light, const Place& from, const auto& hit) const {
     if (!settings_.technique.weighted || walk.events == 0) return 1;
@@ -323,8 +327,9 @@ class EyeVisitor {
   EyeState eye_;
   Place last_, place_;
   Vec3f entry_wo_{0, 0, 1};
-  bool first_ = true;      ///< only delta lobes so far
-  bool may_merge_ = true;  ///< false behind the vertex of a path that merges once
+  bool first_ = true;         ///< only delta lobes so far
+  bool all_specular_ = true;  ///< only S so far, rough ones included
+  bool may_merge_ = true;     ///< false behind the vertex of a path that merges once
   EyePartialWeights sums_;
   const WalkVertex* surface_ = nullptr;
   const MediumVertex* medium_ = nullptr;

@@ -107,8 +107,10 @@ PathAndPhotons::Choice PathAndPhotons::best_of(
   };
   GuidedPhotons guided = photons_of(ClassMask::kAll);
   // Camera paths ask for the density of each start, which takes some time.
-  if (guided.guide.starts.share_unaimed() > kEnoughUseful) guided.guide = {};
   techniques.gathers_in_media = scatters_in_media(owned_, scene);
+  // The guide knows what lights visible surfaces, not what lights fog.
+  if (techniques.gathers_in_media || guided.guide.starts.share_unaimed() > kEnoughUseful)
+    guided.guide = {};
   Choice all = try_photons(ClassMask::kAll, guided);
   techniques.gathers_in_media = false;
   const auto without_chains = [](Choice choice) {

@@ -47,24 +47,31 @@ Equiangular::Equiangular(const Ray& ray, float t_max, const LightPlace& light) {
   const double off = std::max(w2 - w_d * w_d, 0.0) + light.radius2;
   // Where the ray hits the light, a small part of the way stands for the distance.
   const double least = 1e-4 * std::sqrt(w2) + 1e-18;
-  const double distance = std::max(std::sqrt(off), least);
-  nearest_ = static_cast<float>(-w_d);
-  distance_ = static_cast<float>(distance);
-  begin_ = static_cast<float>(t.begin);
-  end_ = static_cast<float>(t.end);
-  first_ = std::atan((begin_ - nearest_) / distance_);
-  last_ = std::atan((end_ - nearest_) / distance_);
+  nearest_ = -w_d;
+  distance_ = std::max(std::sqrt(off), least);
+  begin_ = t.begin;
+  end_ = t.end;
+  // The difference of both angles, without the cancellation of a short piece far from the light.
+  const double a = begin_ - nearest_;
+  angle_ = end_ < kInfinity
+               ? std::atan2(distance_ * (end_ - begin_), sqr(distance_) + a * (end_ - nearest_))
+               : std::atan2(distance_, a);
 }
 
 float Equiangular::sample(float u) const {
-  const float t = nearest_ + distance_ * std::tan(first_ + u * (last_ - first_));
-  return std::clamp(t, begin_, std::min(end_, std::numeric_limits<float>::max()));
+  const double a = begin_ - nearest_, turn = std::tan(u * angle_);
+  // tan(x + y) - tan(x), times the distance.
+  const double way = distance_ - a * turn;
+  const double t = begin_ + (sqr(distance_) + sqr(a)) * turn / way;
+  const double last = std::min(end_, double{std::numeric_limits<float>::max()});
+  return static_cast<float>(way > 0 ? std::clamp(t, begin_, last) : last);
 }
 
 float Equiangular::pdf(float t) const {
-  if (!(t >= begin_ && t <= end_) || !(last_ > first_)) return 0.0f;
-  const float off = (t - nearest_) / distance_;
-  return 1.0f / ((last_ - first_) * distance_ * (1.0f + off * off));
+  if (!(t >= static_cast<float>(begin_) && t <= static_cast<float>(end_)) || !(angle_ > 0))
+    return 0.0f;
+  const double off = (t - nearest_) / distance_;
+  return static_cast<float>(1 / (angle_ * distance_ * (1 + sqr(off))));
 }
 
 }  // namespace nephroid

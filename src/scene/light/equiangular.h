@@ -25,18 +25,18 @@ class Equiangular {
   Equiangular(const Ray& ray, float t_max, const LightPlace& light);
 
   /// Angle of the piece, seen from the light, over the distance of the ray: the integral of 1/d^2
-  /// over the piece. 0 if the light does not shine on the ray.
-  float importance() const { return (last_ - first_) / distance_; }
-  /// Call if importance() is above 0.
+  /// over the piece, 1/length. 0 if the light does not shine on the ray.
+  float importance() const { return static_cast<float>(angle_ / distance_); }
+  /// A distance along the ray. Call if importance() is above 0.
   float sample(float u) const;
   /// Density of sample(), 1/length; 0 outside of the piece.
   float pdf(float t) const;
 
  private:
-  float nearest_ = 0;   ///< t of the point nearest to the light
-  float distance_ = 1;  ///< from there to the light; a wide light is as far as its radius
-  float begin_ = 0, end_ = 0;
-  float first_ = 0, last_ = 0;  ///< angles at both ends
+  double nearest_ = 0;   ///< t of the point nearest to the light
+  double distance_ = 1;  ///< from there to the light; a wide light is as far as its radius
+  double begin_ = 0, end_ = 0;
+  double angle_ = 0;  ///< between both ends, seen from the light
 };
 
 }  // namespace nephroid

@@ -157,7 +157,7 @@ std::optional<LightAlong> LightSampler::sample_along(const Ray& ray, float t_max
                       d.tree->leaf(choice->light)->along(ray, t_max)};
   }
   const Impl::FewImportances w = d.few_importances_along(ray, t_max);
-  if (!(w.sum > 0.0) || !std::isfinite(w.sum)) return std::nullopt;
+  if (!(w.sum > 0.0)) return std::nullopt;
   const int i = w.choose(v * w.sum, d.few_count);
   return LightAlong{d.few_lights[i], static_cast<float>(w.of[i] / w.sum),
                     d.few[i].along(ray, t_max)};
@@ -173,7 +173,7 @@ std::optional<LightAlong> LightSampler::find_along(const Ray& ray, float t_max, 
     found.distances = leaf->along(ray, t_max);
   } else {
     const Impl::FewImportances w = d.few_importances_along(ray, t_max);
-    if (!(w.sum > 0.0) || !std::isfinite(w.sum)) return std::nullopt;
+    if (!(w.sum > 0.0)) return std::nullopt;
     for (int i = 0; i < d.few_count; ++i) {
       if (d.few_lights[i] != light) continue;
       found.pdf_p = static_cast<float>(w.of[i] / w.sum);

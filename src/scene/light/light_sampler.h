@@ -20,7 +20,7 @@ struct LightAlong {
   int light = -1;  ///< -1: the choice led to no light
   float pdf_p = 0;
   Equiangular distances;
-  /// Density of the light and a distance.
+  /// Density of the light and a distance, 1/length.
   float pdf(float t) const { return pdf_p * distances.pdf(t); }
 };
 
@@ -37,9 +37,9 @@ class LightSampler {
   float pmf(const Vec3f& p, const Vec3f& n, int light) const;
 
   /// Samples a bounded light for a ray of unit direction, by what it can send to all of its points
-  /// up to `t_max`. Empty for every `u` if no bounded light shines on it.
+  /// up to `t_max`. Empty for all `u` or for none; with many lights the choice may lead to none.
   std::optional<LightAlong> sample_along(const Ray& ray, float t_max, float u) const;
-  /// The same light with its probability; empty if sample_along() never returns it.
+  /// What sample_along() returns when it chooses `light`; empty if it never does.
   std::optional<LightAlong> find_along(const Ray& ray, float t_max, int light) const;
 
   /// Samples a light in proportion to its power. Empty if all are black. `u` is rescaled to [0,1)

@@ -4,6 +4,7 @@
 // section 12.6.3.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -32,7 +33,8 @@ struct LightCluster {
   Equiangular along(const Ray& ray, float t_max) const;
   /// Estimates the light that arrives along a ray, summed over its length.
   float importance_along(const Ray& ray, float t_max) const {
-    return power * along(ray, t_max).importance();
+    constexpr float kMost = 1e30f;  // sums of two stay finite
+    return std::min(power * along(ray, t_max).importance(), kMost);
   }
 };
 

@@ -73,6 +73,18 @@ TEST(Equiangular, DensityIsThatOfTheSamples) {
   }
 }
 
+TEST(Equiangular, APieceFarFromTheLightIsEven) {
+  for (const float distance : {1e4f, 1e8f}) {
+    const Equiangular e(ray_between({0, 0, 0}, {1, 0, 0}), 2,
+                        ball({distance, 1.5f * distance, 0}, 0));
+    EXPECT_NEAR(e.importance() * sqr(distance) * 3.25f / 2, 1, 1e-3);
+    for (const float u : {0.0f, 0.1f, 0.5f, 0.9f}) {
+      EXPECT_NEAR(e.sample(u), 2 * u, 2e-3) << distance;
+      EXPECT_NEAR(e.pdf(2 * u), 0.5, 1e-3) << distance;
+    }
+  }
+}
+
 TEST(Equiangular, PieceIsThatInsideTheCone) {
   for (const EquiangularCase& c : kCases) {
     if (!(c.light.cos_cone > 0)) continue;

@@ -59,5 +59,27 @@ TEST(SurroundingMedium, IsUnknownAboveAnOpenSurfaceOfWater) {
   EXPECT_EQ(scene->light_media[0].outside, nullptr);
 }
 
+// A floor that names media for its sides the wrong way around.
+TEST(MediumTowards, LightThatIsReflectedStaysInItsMedium) {
+  const auto scene = scene_in_medium(std::string(kWater) + "Camera \"perspective\"\nWorldBegin\n" +
+                                     ball_in("water", ""));
+  const Medium* const water = scene->media[0].get();
+  Ray ray;
+  ray.o = Vec3f(0, 0, 5);
+  ray.d = Vec3f(0, 0, -1);
+  SurfaceInteraction hit;
+  ASSERT_TRUE(scene->intersect(ray, hit));
+  const Vec3f out(0, 0, 1);
+  EXPECT_EQ(medium_beyond(hit, out, water), nullptr);
+  EXPECT_EQ(medium_beyond(hit, -out, nullptr), water);
+  EXPECT_EQ(medium_towards(hit, -out, nullptr), water) << "into the ball";
+  EXPECT_EQ(medium_towards(hit, out, nullptr), nullptr) << "back";
+  EXPECT_EQ(medium_towards(hit, out, water), water)
+      << "back, from where the ball says there is none";
+  hit.wo = -out;
+  EXPECT_EQ(medium_towards(hit, out, water), nullptr) << "out of the ball";
+  EXPECT_EQ(medium_towards(hit, -out, nullptr), nullptr) << "back inside";
+}
+
 }  // namespace
 }  // namespace nephroid
