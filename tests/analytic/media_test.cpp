@@ -295,7 +295,7 @@ TEST(Media, SingleScatteringOfManyLampsWithoutEnd) {
         },
         256);
     for (const char* integrator : {"path", "bdpt"})
-      expect_mean(*scene, integrator, density < 1 ? "thin" : "dense", expected, 256, options);
+      expect_mean(*scene, integrator, density < 1 ? "thin" : "dense", expected, 1024, options);
   }
 }
 

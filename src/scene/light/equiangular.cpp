@@ -59,10 +59,10 @@ Equiangular::Equiangular(const Ray& ray, float t_max, const LightPlace& light) {
 }
 
 float Equiangular::sample(float u) const {
-  const double a = begin_ - nearest_, turn = std::tan(u * angle_);
+  const double a = begin_ - nearest_, sine = std::sin(u * angle_), cosine = std::cos(u * angle_);
   // tan(x + y) - tan(x), times the distance.
-  const double way = distance_ - a * turn;
-  const double t = begin_ + (sqr(distance_) + sqr(a)) * turn / way;
+  const double way = distance_ * cosine - a * sine;
+  const double t = begin_ + (sqr(distance_) + sqr(a)) * sine / way;
   const double last = std::min(end_, double{std::numeric_limits<float>::max()});
   return static_cast<float>(way > 0 ? std::clamp(t, begin_, last) : last);
 }
