@@ -53,7 +53,7 @@ class MediumPhotonsIn : public ::testing::TestWithParam<FogOf> {};
 TEST_P(MediumPhotonsIn, FindWhatWalksAloneFind) {
   const CasterPictures of{PairView(in_fog(GetParam(), kDiffuseBall))};
   expect_equal(of.pictures(gathering_in_media(), 1, 16),
-               of.pictures(camera_paths_only(), 1000, 256), GetParam().name);
+               of.pictures(camera_paths_only(), 1000, 320), GetParam().name);
 }
 
 TEST_P(MediumPhotonsIn, FindWhatWalksFindBehindGlass) {
@@ -68,7 +68,7 @@ TEST_P(MediumPhotonsIn, FindWhatWalksFindBehindGlass) {
     Material "conductor" "float roughness" 0
     Shape "bilinearmesh" "point3 P" [-1.5 0.2 1  1 0.2 1  -1.5 1.8 1.4  1 1.8 1.4])"))};
   expect_equal(of.pictures(gathering_in_media(), 1, 16),
-               of.pictures(camera_paths_only(), 1000, 256), GetParam().name);
+               of.pictures(camera_paths_only(), 1000, 320), GetParam().name);
 }
 
 // Light paths that are connected to the camera find the caustics of a point light in fog, too.
@@ -93,7 +93,7 @@ TEST_P(MediumPhotonsIn, AreThoseOfWalksWhereASurfaceNamesTheWrongMedium) {
     ReverseOrientation
     Shape "bilinearmesh" "point3 P" [-2 0.2 -1  -1 0.2 -1  -2 1.2 2  -1 1.2 2])"))};
   expect_equal(of.pictures(gathering_in_media(), 1, 16),
-               of.pictures(camera_paths_only(), 1000, 256), GetParam().name);
+               of.pictures(camera_paths_only(), 1000, 320), GetParam().name);
 }
 
 INSTANTIATE_TEST_SUITE_P(Fog, MediumPhotonsIn, ::testing::ValuesIn(kFogs),
