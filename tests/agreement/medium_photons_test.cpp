@@ -56,9 +56,9 @@ TEST_P(MediumPhotonsIn, FindWhatWalksAloneFind) {
                of.pictures(camera_paths_only(), 1000, 320), GetParam().name);
 }
 
-TEST_P(MediumPhotonsIn, FindWhatWalksFindBehindGlass) {
+TEST(MediumPhotonsInUnevenFog, FindWhatWalksFindBehindGlass) {
   // The camera looks through a pane of glass, and the fog scatters what a mirror sends.
-  const CasterPictures of{PairView(in_fog(GetParam(), R"(
+  const CasterPictures of{PairView(in_fog(kFogs[1], R"(
     AttributeBegin Translate 0.9 2.2 0.5 Rotate 90 1 0 0
     AreaLightSource "diffuse" "rgb L" [20 18 16] "bool twosided" true
     Shape "disk" "float radius" 0.5 AttributeEnd
@@ -68,7 +68,7 @@ TEST_P(MediumPhotonsIn, FindWhatWalksFindBehindGlass) {
     Material "conductor" "float roughness" 0
     Shape "bilinearmesh" "point3 P" [-1.5 0.2 1  1 0.2 1  -1.5 1.8 1.4  1 1.8 1.4])"))};
   expect_equal(of.pictures(gathering_in_media(), 1, 16),
-               of.pictures(camera_paths_only(), 1000, 320), GetParam().name);
+               of.pictures(camera_paths_only(), 1000, 320), kFogs[1].name);
 }
 
 // Light paths that are connected to the camera find the caustics of a point light in fog, too.
@@ -85,15 +85,15 @@ TEST_P(MediumPhotonsIn, FindCausticsOfAPointLight) {
 }
 
 // The wall's upper side is in fog, but it names empty space for it.
-TEST_P(MediumPhotonsIn, AreThoseOfWalksWhereASurfaceNamesTheWrongMedium) {
-  const CasterPictures of{PairView(in_fog(GetParam(), std::string(kDiffuseBall) + R"(
+TEST(MediumPhotonsInEvenFog, AreThoseOfWalksWhereASurfaceNamesTheWrongMedium) {
+  const CasterPictures of{PairView(in_fog(kFogs[0], std::string(kDiffuseBall) + R"(
     MediumInterface "" "fog"
     Material "diffuse" "rgb reflectance" [0.8 0.8 0.8]
     Shape "bilinearmesh" "point3 P" [-2 0.1 -1  2 0.1 -1  -2 0.1 2  2 0.1 2]
     ReverseOrientation
     Shape "bilinearmesh" "point3 P" [-2 0.2 -1  -1 0.2 -1  -2 1.2 2  -1 1.2 2])"))};
   expect_equal(of.pictures(gathering_in_media(), 1, 16),
-               of.pictures(camera_paths_only(), 1000, 320), GetParam().name);
+               of.pictures(camera_paths_only(), 1000, 320), kFogs[0].name);
 }
 
 INSTANTIATE_TEST_SUITE_P(Fog, MediumPhotonsIn, ::testing::ValuesIn(kFogs),
