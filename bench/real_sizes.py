@@ -42,8 +42,8 @@ SUITE = {
     "hall": ("750x500", MERGING),
     "cornell-box": ("512x512", PATHS),
     "material-testball": ("640x360", PATHS),
-    "daylight-room": ("600x400", ["--integrator", "bdpt"]),
-    "door-ajar": ("600x400", ["--integrator", "bdpt"]),
+    "daylight-room": ("600x400", MERGING),
+    "door-ajar": ("600x400", MERGING),
 }
 
 

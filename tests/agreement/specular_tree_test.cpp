@@ -61,7 +61,8 @@ TEST(SpecularTree, FindsWhatWalksFindWithLessNoise) {
   const std::string mirror = R"(Material "conductor" "float roughness" 0)";
   const std::string frosted = R"(Material "dielectric" "float roughness" 0.001)";
   const std::string pane_before = R"(
-    AttributeBegin Material "thindielectric" Translate 0 0 -1.5 Shape "disk" AttributeEnd )";
+    AttributeBegin MediumInterface "" "" Material "thindielectric"
+      Translate 0 0 -1.5 Shape "disk" AttributeEnd )";
   const std::string mirror_before = R"(
     AttributeBegin Material "conductor" "float roughness" 0 Translate 0 0 -1.5 Rotate 150 0 1 0
       Shape "disk" "float radius" 2 AttributeEnd Translate 3 0 -4 )";
