@@ -63,11 +63,11 @@ constexpr const char* kPbrtTail = R"(
 - A negative value of a `density`, an emission or a coefficient in a scene file is an error; a negative
   voxel of a NanoVDB file counts as 0.
 - The ray tracer does not see a curve that is nearer to the origin of a ray than its width.
-- Photons, and the walks that merge them, scatter in media. `mixed` merges photons there, where trials show
-  that it pays, or where nothing else finds a caustic; other integrators merge at surfaces only. Paths that
-  meet hair or another curve (H) are path traced in every integrator.
-- Light that stays on the side of a surface from which it came stays in its medium, whatever the surface's
-  `MediumInterface` says of that side.
+- Photons, and the walks that merge them, scatter in media. `mixed` merges photons there if trials
+  show that it pays, or if nothing else finds a caustic; other integrators merge at surfaces only.
+  Paths that meet hair or another curve (H) are path traced in every integrator.
+- Light that a surface reflects stays in its medium, whatever the `MediumInterface` of the surface
+  says of that side.
 - Realistic cameras cannot be used with routes of `lighttrace` and `photons+light`: light paths cannot be
   connected to them. `bdpt`, `vcm` and `mlt` do without that connection, and warn of light that nothing
   else finds.

@@ -64,7 +64,7 @@ float share_near_lights(float thickness, bool bounded_only) {
 struct PointAndLight {
   float t = 0;
   LightChoice light;  ///< with its probability in next-event estimation at the point
-  float density = 0;  ///< of the point and the light
+  float density = 0;  ///< density of the point and the light, 1/length
 };
 
 std::optional<PointAndLight> sample_point(const LightSampler& lights, const Ray& ray, float t_max,

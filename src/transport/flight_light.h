@@ -13,7 +13,7 @@ namespace nephroid {
 struct FlightLight {
   MediumVertex vertex;
   DirectSample direct;         ///< `radiance` is divided by the density of the point, too
-  SampledSpectrum throughput;  ///< of the walk, if it scatters at the point
+  SampledSpectrum throughput;  ///< the walk's throughput if it scatters at the point
   SampledSpectrum collision;   ///< r_u of a walk that collides at the point, up to a factor
 };
 

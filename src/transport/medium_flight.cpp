@@ -91,8 +91,8 @@ SampledSpectrum uniform_emission(const MediumProperties& m, float distance) {
   return emitted;
 }
 
-/// Factor of the majorants at which emission along a ray is looked up about eight times, however
-/// thin the medium is.
+/// Factor of the majorants with which emission along a ray is looked up about eight times even if
+/// the medium is thin; 1 in dense media.
 float emission_rate(MajorantIterator pieces) {
   constexpr float kLookups = 8.0f, kMost = 1e30f;
   float depth = 0;

@@ -137,7 +137,7 @@ class RandomWalk {
   /// [V7] Direct light that the medium scatters into the flight, at so many points.
   void light_along(const Medium& medium, float distance, int samples) {
     if constexpr (requires { visitor_.looks_along(medium); }) {
-      // The vertex at the end of the flight uses the same numbers, mirrored.
+      // Mirrored, as the vertex at the end of the flight uses the same numbers.
       const int first = walk_.vertex_dimension() + dimensions::kLight;
       sampler_.start_dimension(first);
       const float u_light = mirrored(sampler_.get_1d());

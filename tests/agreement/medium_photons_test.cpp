@@ -34,8 +34,10 @@ std::string in_fog(const FogOf& fog, const std::string& things) {
     AttributeBegin
       Material "interface" MediumInterface "fog" ""
       Translate 0 1.5 0 Scale 2.5 1.9 2.5
-      Shape "trianglemesh" "point3 P" [-1 -1 -1  1 -1 -1  1 1 -1  -1 1 -1  -1 -1 1  1 -1 1  1 1 1  -1 1 1]
-        "integer indices" [0 2 1 0 3 2  4 5 6 4 6 7  0 1 5 0 5 4  3 7 6 3 6 2  0 4 7 0 7 3  1 2 6 1 6 5]
+      Shape "trianglemesh" "point3 P" [-1 -1 -1  1 -1 -1  1 1 -1  -1 1 -1
+                                       -1 -1 1  1 -1 1  1 1 1  -1 1 1]
+        "integer indices" [0 2 1 0 3 2  4 5 6 4 6 7  0 1 5 0 5 4
+                             3 7 6 3 6 2  0 4 7 0 7 3  1 2 6 1 6 5]
     AttributeEnd
     MediumInterface "fog" "fog"
   )" + things;

@@ -220,7 +220,7 @@ void expect_single_scattering(const MediumText& m, const std::string& integrator
   expect_mean(*scene, integrator, m.name, expected, 512, options);
 }
 
-// What thin gas emits is not lost in rounding.
+// Rounding does not lose the light of thin gas.
 TEST(Media, GlowOfVeryThinGas) {
   for (const double depth : {1e-4, 1e-8}) {
     const std::string sigma = std::to_string(depth * 1e9 / 1.5) + "e-9";

@@ -12,7 +12,7 @@ namespace nephroid {
 struct LightPlace {
   Vec3f center{0, 0, 0};
   float radius2 = 0;
-  Vec3f axis{0, 0, 1};  ///< of the cone, unit
+  Vec3f axis{0, 0, 1};  ///< axis of the cone, unit
   float cos_cone = -1;  ///< cosine of its half angle; not above 0: no cone
 };
 

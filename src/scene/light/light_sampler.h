@@ -39,7 +39,7 @@ class LightSampler {
   /// Samples a bounded light for a ray of unit direction, by what it can send to all of its points
   /// up to `t_max`. Empty for all `u` or for none; with many lights the choice may lead to none.
   std::optional<LightAlong> sample_along(const Ray& ray, float t_max, float u) const;
-  /// What sample_along() returns when it chooses `light`; empty if it never does.
+  /// The result of sample_along() for a given light; empty if it never chooses that light.
   std::optional<LightAlong> find_along(const Ray& ray, float t_max, int light) const;
 
   /// Samples a light in proportion to its power. Empty if all are black. `u` is rescaled to [0,1)
