@@ -16,6 +16,10 @@ namespace {
 
 /// Up to this number of lights, importances are compared one by one.
 constexpr int kFew = 4;
+/// Visibility of more infinite lights than this is not learned one by one.
+constexpr size_t kMaxLearnedGroups = 16;
+/// The group of all lights that are not infinite.
+constexpr int kBounded = -1;
 
 /// u with the bits that a float lacks filled from a hash, so that choices among very many lights
 /// keep their probabilities.
@@ -44,11 +48,9 @@ struct LightSampler::Impl {
                is_finite(bounds->bounds.min) && is_finite(bounds->bounds.max))
         items.push_back({*bounds, i});
     }
-    is_infinite.assign(lights.size(), false);
-    for (const int i : infinite) is_infinite[i] = true;
-    const int groups = static_cast<int>(infinite.size()) + (items.empty() ? 0 : 1);
-    if (groups > 0) infinite_share = 1.0 / groups;
-    bounded_share = items.empty() ? 0.0 : infinite_share;
+    group_of.assign(lights.size(), kBounded);
+    for (size_t i = 0; i < infinite.size(); ++i) group_of[infinite[i]] = static_cast<int>(i);
+    group_count = infinite.size() + (items.empty() ? 0 : 1);
     if (items.size() <= kFew) {
       for (const LightTree::Item& item : items) {
         few_lights[few_count] = item.light;
@@ -83,10 +85,18 @@ struct LightSampler::Impl {
       return last;
     }
   };
-  FewImportances few_importances(const Vec3f& p, const Vec3f& n) const {
+  /// `shares` are those of the few lights' slots, or null.
+  FewImportances few_importances(const Vec3f& p, const Vec3f& n, const float* shares) const {
     FewImportances w;
     for (int i = 0; i < few_count; ++i) w.sum += w.of[i] = few[i].importance(p, n);
-    return w;
+    if (!shares || !(w.sum > 0.0)) return w;
+    double arrives = 0.0;
+    for (int i = 0; i < few_count; ++i) arrives += w.of[i] * shares[i];
+    if (!(arrives > 0.0)) return w;
+    FewImportances learned{.of = {}, .sum = 1.0};
+    for (int i = 0; i < few_count; ++i)
+      learned.of[i] = learned_probability(w.of[i], shares[i], w.sum, arrives);
+    return learned;
   }
   FewImportances few_importances_along(const Ray& ray, float t_max) const {
     FewImportances w;
@@ -94,10 +104,65 @@ struct LightSampler::Impl {
     return w;
   }
 
+  /// What was learned at a point; null if nothing was.
+  const float* shares_at(const Vec3f& p, const Vec3f& n) const {
+    const bool has_normal = n.x != 0.0f || n.y != 0.0f || n.z != 0.0f;
+    return has_normal && !visibility.empty() ? visibility.at(p) : nullptr;
+  }
+  /// Slots begin with those of the groups, that of the bounded lights last.
+  size_t group_slots() const { return group_count <= kMaxLearnedGroups ? group_count : 0; }
+  const float* shares_of_bounded(const float* shares) const {
+    return shares ? shares + group_slots() : nullptr;
+  }
+  /// Brightness of a group, for choosing among groups. The squares of light from an infinite light
+  /// are averaged, as its samples differ from each other.
+  double brightness(size_t group, const float* shares) const {
+    return group < infinite.size() ? std::sqrt(shares[group]) : shares[group];
+  }
+  double brightness_of_all(const float* shares) const {
+    double sum = 0.0;
+    for (size_t i = 0; i < group_count; ++i) sum += brightness(i, shares);
+    return sum;
+  }
+  double group_probability(size_t group, const float* shares, double brightness_of_all) const {
+    return learned_probability(1.0, brightness(group, shares), static_cast<double>(group_count),
+                               brightness_of_all);
+  }
+  double group_probability(size_t group, const float* shares) const {
+    if (!learns_groups(shares)) return 1.0 / static_cast<double>(group_count);
+    return group_probability(group, shares, brightness_of_all(shares));
+  }
+  bool learns_groups(const float* shares) const { return shares && group_slots() > 1; }
+  struct GroupChoice {
+    size_t group = 0;
+    double probability = 1;
+    double rest = 0;  ///< what is left of the random number, in [0,1)
+  };
+  /// Samples a group by `u` in [0,1).
+  GroupChoice choose_group(double u, const float* shares) const {
+    GroupChoice choice;
+    if (learns_groups(shares)) {
+      const double all = brightness_of_all(shares);
+      for (;; ++choice.group) {
+        choice.probability = group_probability(choice.group, shares, all);
+        if (u < choice.probability || choice.group + 1 == group_count) break;
+        u -= choice.probability;
+      }
+      choice.rest = u / choice.probability;
+    } else {
+      const auto count = static_cast<double>(group_count);
+      choice.group = std::min(static_cast<size_t>(u * count), group_count - 1);
+      choice.probability = 1.0 / count;
+      choice.rest = u * count - static_cast<double>(choice.group);
+    }
+    choice.rest = std::min(choice.rest, 1.0 - 0x1p-53);
+    return choice;
+  }
+
   std::vector<int> infinite;
-  std::vector<bool> is_infinite;
-  double infinite_share = 0.0;  ///< probability of each infinite light
-  double bounded_share = 0.0;   ///< probability of all bounded lights together
+  std::vector<int> group_of;  ///< [light] index in `infinite`, or kBounded
+  size_t group_count = 0;     ///< infinite lights, and one for all bounded lights
+  LightVisibility visibility;
   std::array<LightCluster, kFew> few;
   std::array<int, kFew> few_lights{};
   int few_count = 0;
@@ -114,36 +179,85 @@ LightSampler::LightSampler(LightSampler&&) noexcept = default;
 
 std::optional<LightChoice> LightSampler::sample(const Vec3f& p, const Vec3f& n, float u) const {
   const Impl& d = *impl_;
-  double v = refine(u, p);
-  const auto infinite_count = static_cast<double>(d.infinite.size());
-  const double all_infinite = infinite_count * d.infinite_share;
-  if (d.bounded_share == 0.0 || v < all_infinite) {
-    if (d.infinite.empty()) return std::nullopt;
-    const auto i = std::min(static_cast<size_t>(v / d.infinite_share), d.infinite.size() - 1);
-    return LightChoice{d.infinite[i], static_cast<float>(d.infinite_share)};
-  }
-  v = std::min((v - all_infinite) / d.bounded_share, 1.0 - 0x1p-53);
+  if (d.group_count == 0) return std::nullopt;
+  const float* shares = d.shares_at(p, n);
+  const Impl::GroupChoice group = d.choose_group(refine(u, p), shares);
+  const double v = group.rest, bounded = group.probability;
+  if (group.group < d.infinite.size())
+    return LightChoice{d.infinite[group.group], static_cast<float>(group.probability)};
+  shares = d.shares_of_bounded(shares);
   if (d.tree) {
-    const auto choice = d.tree->sample(p, n, v, d.bounded_share);
+    const auto choice = d.tree->sample(p, n, v, bounded, shares);
     if (!choice) return std::nullopt;
     return LightChoice{choice->light, static_cast<float>(choice->probability)};
   }
-  const Impl::FewImportances w = d.few_importances(p, n);
+  const Impl::FewImportances w = d.few_importances(p, n, shares);
   if (!(w.sum > 0.0)) return std::nullopt;
   const int i = w.choose(v * w.sum, d.few_count);
-  return LightChoice{d.few_lights[i], static_cast<float>(d.bounded_share * (w.of[i] / w.sum))};
+  return LightChoice{d.few_lights[i], static_cast<float>(bounded * (w.of[i] / w.sum))};
 }
 
 float LightSampler::pmf(const Vec3f& p, const Vec3f& n, int light) const {
   const Impl& d = *impl_;
-  if (light < 0 || light >= static_cast<int>(d.is_infinite.size())) return 0.0f;
-  if (d.is_infinite[light]) return static_cast<float>(d.infinite_share);
-  if (d.tree) return static_cast<float>(d.tree->pmf(p, n, light, d.bounded_share));
-  const Impl::FewImportances w = d.few_importances(p, n);
+  if (light < 0 || light >= static_cast<int>(d.group_of.size())) return 0.0f;
+  const float* shares = d.shares_at(p, n);
+  const bool is_infinite = d.group_of[light] != kBounded;
+  const double of_group =
+      d.group_probability(is_infinite ? d.group_of[light] : d.infinite.size(), shares);
+  if (is_infinite) return static_cast<float>(of_group);
+  shares = d.shares_of_bounded(shares);
+  if (d.tree) return static_cast<float>(d.tree->pmf(p, n, light, of_group, shares));
+  const Impl::FewImportances w = d.few_importances(p, n, shares);
   if (!(w.sum > 0.0)) return 0.0f;
   for (int i = 0; i < d.few_count; ++i)
-    if (d.few_lights[i] == light) return static_cast<float>(d.bounded_share * (w.of[i] / w.sum));
+    if (d.few_lights[i] == light) return static_cast<float>(of_group * (w.of[i] / w.sum));
   return 0.0f;
+}
+
+size_t LightSampler::slot_count() const {
+  const Impl& d = *impl_;
+  const size_t bounded = d.tree ? d.tree->slot_count() : d.few_count;
+  return d.group_slots() > 1 || bounded > 1 ? d.group_slots() + bounded : 0;
+}
+
+void LightSampler::survey(const Vec3f& p, const Vec3f& n, float u,
+                          const std::function<float(int)>& arrives,
+                          std::vector<SlotSample>& samples) const {
+  const Impl& d = *impl_;
+  const auto slots_of_groups = static_cast<uint32_t>(d.group_slots());
+  const auto [group, group_probability, rest] = d.choose_group(refine(u, p), nullptr);
+  if (group < d.infinite.size()) {
+    const float light = arrives(d.infinite[group]);
+    if (slots_of_groups > 0) samples.push_back({static_cast<uint32_t>(group), sqr(light), 1.0f});
+    return;
+  }
+  float found = 0.0f;
+  if (d.tree) {
+    std::vector<LightTree::Turn> turns;
+    const auto choice = d.tree->survey(p, n, rest, turns);
+    if (choice) found = static_cast<float>(arrives(choice->light) / choice->probability);
+    for (const LightTree::Turn& turn : turns) {
+      const auto expected = [&](float importance) {
+        return static_cast<float>(importance / turn.probability);
+      };
+      const uint32_t slot = slots_of_groups + turn.slot;
+      samples.push_back({slot, turn.takes_second ? 0.0f : found, expected(turn.first)});
+      samples.push_back({slot + 1, turn.takes_second ? found : 0.0f, expected(turn.second)});
+    }
+  } else {
+    const Impl::FewImportances w = d.few_importances(p, n, nullptr);
+    const auto lights = static_cast<double>(d.few_count);
+    const int chosen = std::min(static_cast<int>(rest * lights), d.few_count - 1);
+    if (w.of[chosen] > 0.0) found = static_cast<float>(arrives(d.few_lights[chosen]) * lights);
+    for (int i = 0; i < d.few_count; ++i)
+      samples.push_back({slots_of_groups + i, i == chosen ? found : 0.0f,
+                         static_cast<float>(w.of[i])});
+  }
+  if (slots_of_groups > 0) samples.push_back({slots_of_groups - 1, found, 1.0f});
+}
+
+void LightSampler::learn(LightVisibility visibility) {
+  impl_->visibility = std::move(visibility);
 }
 
 std::optional<LightAlong> LightSampler::sample_along(const Ray& ray, float t_max, float u) const {

@@ -1,12 +1,14 @@
-// Chooses a light: for a receiving point by a light tree with a share for infinite lights, or for
-// emitting a photon by power.
+// Chooses a light: for a receiving point by a light tree with a share for infinite lights, and by
+// what was learned of their visibility; or for emitting a photon by power.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "scene/light/equiangular.h"
 #include "scene/light/light.h"
+#include "scene/light/light_visibility.h"
 
 namespace nephroid {
 
@@ -35,6 +37,16 @@ class LightSampler {
   std::optional<LightChoice> sample(const Vec3f& p, const Vec3f& n, float u) const;
   /// Probability that sample() returns `light` at this point.
   float pmf(const Vec3f& p, const Vec3f& n, int light) const;
+
+  /// Number of lights and groups of lights whose visibility can be learned; 0 if there is no choice.
+  size_t slot_count() const;
+  /// Samples a light for a point to learn from, and adds what is found to `samples`. `arrives` is
+  /// called with the light; it returns the light that arrives at the point over the density of its
+  /// sample, of which only ratios count.
+  void survey(const Vec3f& p, const Vec3f& n, float u, const std::function<float(int)>& arrives,
+              std::vector<SlotSample>& samples) const;
+  /// From now on sample() and pmf() follow what was learned, at points with a normal.
+  void learn(LightVisibility visibility);
 
   /// Samples a bounded light for a ray of unit direction, by what it can send to all of its points
   /// up to `t_max`. Empty for all `u` or for none; with many lights the choice may lead to none.

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <queue>
+
+#include "scene/light/light_visibility.h"
 
 namespace nephroid {
 
@@ -11,6 +14,8 @@ namespace {
 constexpr int kBuckets = 12;
 /// Below this depth halves have equal numbers of lights, so that no path is longer than 64.
 constexpr int kUnbalancedDepth = 40;
+/// Nodes with learned visibility: a cell has a number for each.
+constexpr uint32_t kMaxSlots = 128;
 
 /// A point is behind the plane of flat lights if it is lower than this share of the distance: far
 /// more than rounding and the differences of normals (LightBounds::is_flat).
@@ -200,6 +205,27 @@ LightTree::LightTree(std::vector<Item> items, int light_count) : trails_(light_c
   nodes_.reserve(2 * items.size());
   nodes_.emplace_back();
   build(0, items, 0, items.size(), 0, 0);
+  give_slots();
+}
+
+void LightTree::give_slots() {
+  const auto power = [this](uint32_t node) { return nodes_[node].cluster.power; };
+  const auto weaker = [&](uint32_t a, uint32_t b) {
+    return power(a) != power(b) ? power(a) < power(b) : a > b;
+  };
+  std::priority_queue<uint32_t, std::vector<uint32_t>, decltype(weaker)> inner(weaker);
+  const auto add = [&](uint32_t node) {
+    if (!(nodes_[node].child & kLeaf)) inner.push(node);
+  };
+  add(0);
+  while (!inner.empty() && slot_count_ < kMaxSlots) {
+    Node& node = nodes_[inner.top()];
+    inner.pop();
+    node.slot = slot_count_;
+    slot_count_ += 2;
+    add(node.child);
+    add(node.child + 1);
+  }
 }
 
 LightBounds LightTree::build(uint32_t node, std::vector<Item>& items, size_t begin, size_t end,
@@ -242,21 +268,26 @@ LightBounds LightTree::build(uint32_t node, std::vector<Item>& items, size_t beg
 }
 
 template <class Importance>
-double LightTree::first_probability(const Node& node, const Importance& importance) const {
+double LightTree::first_probability(const Node& node, const Importance& importance,
+                                    const float* shares) const {
   const double first = importance(nodes_[node.child].cluster);
   const double second = importance(nodes_[node.child + 1].cluster);
   const double sum = first + second;
-  return sum > 0.0 ? first / sum : -1.0;
+  if (!(sum > 0.0)) return -1.0;
+  if (!shares || node.slot == kNoSlot) return first / sum;
+  const float* of = shares + node.slot;
+  return learned_probability(first, of[0], sum, first * of[0] + second * of[1]);
 }
 
 template <class Importance>
 std::optional<LightTree::Choice> LightTree::sample(const Importance& importance, double u,
-                                                   double probability) const {
+                                                   double probability,
+                                                   const float* shares) const {
   if (nodes_.empty()) return std::nullopt;
   const Node* node = &nodes_[0];
   if (!(importance(node->cluster) > 0.0f)) return std::nullopt;
   while (!(node->child & kLeaf)) {
-    const double first = first_probability(*node, importance);
+    const double first = first_probability(*node, importance, shares);
     if (first < 0.0) return std::nullopt;
     if (u < first) {
       u /= first;
@@ -274,13 +305,14 @@ std::optional<LightTree::Choice> LightTree::sample(const Importance& importance,
 }
 
 template <class Importance>
-double LightTree::pmf(const Importance& importance, int light, double probability) const {
+double LightTree::pmf(const Importance& importance, int light, double probability,
+                      const float* shares) const {
   if (!contains(light)) return 0.0;
   const Node* node = &nodes_[0];
   if (!(importance(node->cluster) > 0.0f)) return 0.0;
   uint64_t trail = trails_[light].bits;
   while (!(node->child & kLeaf)) {
-    const double first = first_probability(*node, importance);
+    const double first = first_probability(*node, importance, shares);
     if (first < 0.0) return 0.0;
     probability *= trail & 1 ? 1.0 - first : first;
     node = &nodes_[node->child + (trail & 1)];
@@ -301,19 +333,46 @@ auto importance_along(const Ray& ray, float t_max) {
 }  // namespace
 
 std::optional<LightTree::Choice> LightTree::sample(const Vec3f& p, const Vec3f& n, double u,
-                                                   double probability) const {
-  return sample(importance_at(p, n), u, probability);
+                                                   double probability,
+                                                   const float* shares) const {
+  return sample(importance_at(p, n), u, probability, shares);
 }
-double LightTree::pmf(const Vec3f& p, const Vec3f& n, int light, double probability) const {
-  return pmf(importance_at(p, n), light, probability);
+double LightTree::pmf(const Vec3f& p, const Vec3f& n, int light, double probability,
+                      const float* shares) const {
+  return pmf(importance_at(p, n), light, probability, shares);
+}
+
+std::optional<LightTree::Choice> LightTree::survey(const Vec3f& p, const Vec3f& n, double u,
+                                                   std::vector<Turn>& turns) const {
+  const auto importance = importance_at(p, n);
+  if (nodes_.empty() || !(importance(nodes_[0].cluster) > 0.0f)) return std::nullopt;
+  uint32_t index = 0;
+  double probability = 1.0;
+  while (!(nodes_[index].child & kLeaf)) {
+    const Node& node = nodes_[index];
+    Turn turn{.slot = node.slot,
+              .first = importance(nodes_[node.child].cluster),
+              .second = importance(nodes_[node.child + 1].cluster),
+              .probability = probability};
+    const double sum = double{turn.first} + turn.second;
+    if (!(sum > 0.0)) return std::nullopt;
+    double first = turn.first / sum;
+    if (node.slot != kNoSlot && turn.first > 0.0f && turn.second > 0.0f) first = 0.25 + 0.5 * first;
+    turn.takes_second = u >= first;
+    u = std::min(turn.takes_second ? (u - first) / (1.0 - first) : u / first, 1.0 - 0x1p-53);
+    probability *= turn.takes_second ? 1.0 - first : first;
+    index = node.child + (turn.takes_second ? 1 : 0);
+    if (node.slot != kNoSlot) turns.push_back(turn);
+  }
+  return Choice{static_cast<int>(nodes_[index].child & ~kLeaf), probability};
 }
 
 std::optional<LightTree::Choice> LightTree::sample_along(const Ray& ray, float t_max,
                                                          double u) const {
-  return sample(importance_along(ray, t_max), u, 1.0);
+  return sample(importance_along(ray, t_max), u, 1.0, nullptr);
 }
 double LightTree::pmf_along(const Ray& ray, float t_max, int light) const {
-  return pmf(importance_along(ray, t_max), light, 1.0);
+  return pmf(importance_along(ray, t_max), light, 1.0, nullptr);
 }
 
 const LightCluster* LightTree::leaf(int light) const {

@@ -48,16 +48,32 @@ class LightTree {
     int light = -1;
     double probability = 0;
   };
+  /// A turn on the way down whose two children have slots.
+  struct Turn {
+    uint32_t slot = 0;            ///< of the first child; the second one has the next
+    float first = 0, second = 0;  ///< importances
+    bool takes_second = false;
+    double probability = 0;  ///< of coming here
+  };
 
   /// `light_count` is one more than the largest Item::light.
   LightTree(std::vector<Item> items, int light_count);
 
   bool empty() const { return nodes_.empty(); }
   /// Samples a light by `u` in [0,1). Its probability is multiplied by `probability`. Empty if no
-  /// light can contribute.
-  std::optional<Choice> sample(const Vec3f& p, const Vec3f& n, double u, double probability) const;
+  /// light can contribute. `shares` are what LightVisibility has learned for the tree's slots, or
+  /// null.
+  std::optional<Choice> sample(const Vec3f& p, const Vec3f& n, double u, double probability,
+                               const float* shares) const;
   /// The probability of that choice; 0 for lights that are not in the tree.
-  double pmf(const Vec3f& p, const Vec3f& n, int light, double probability) const;
+  double pmf(const Vec3f& p, const Vec3f& n, int light, double probability,
+             const float* shares) const;
+  /// Number of nodes whose visibility can be learned: those of most power.
+  uint32_t slot_count() const { return slot_count_; }
+  /// Samples a light to learn from: as without shares, but with every child that can contribute at
+  /// least a quarter of the time. Adds its turns to `turns`.
+  std::optional<Choice> survey(const Vec3f& p, const Vec3f& n, double u,
+                               std::vector<Turn>& turns) const;
   /// True if sample_along() can return a light.
   bool shines_along(const Ray& ray, float t_max) const {
     return !nodes_.empty() && nodes_[0].cluster.importance_along(ray, t_max) > 0.0f;
@@ -71,10 +87,11 @@ class LightTree {
   int depth() const { return depth_; }
 
  private:
-  static constexpr uint32_t kLeaf = 0x80000000u;
+  static constexpr uint32_t kLeaf = 0x80000000u, kNoSlot = 0xffffffffu;
   struct Node {
     LightCluster cluster;
     uint32_t child = 0;  ///< first of two adjacent children; or kLeaf | index of the light
+    uint32_t slot = kNoSlot;  ///< slot of the first child
   };
   struct Trail {
     uint64_t bits = 0;  ///< turns on the path down, the first in the lowest bit
@@ -86,18 +103,23 @@ class LightTree {
   }
   LightBounds build(uint32_t node, std::vector<Item>& items, size_t begin, size_t end,
                     uint64_t trail, int depth);
+  void give_slots();
   /// Probability of the first child; negative if neither child can contribute. `importance` is that
   /// of a cluster.
   template <class Importance>
-  double first_probability(const Node& node, const Importance& importance) const;
+  double first_probability(const Node& node, const Importance& importance,
+                           const float* shares) const;
   template <class Importance>
-  std::optional<Choice> sample(const Importance& importance, double u, double probability) const;
+  std::optional<Choice> sample(const Importance& importance, double u, double probability,
+                               const float* shares) const;
   template <class Importance>
-  double pmf(const Importance& importance, int light, double probability) const;
+  double pmf(const Importance& importance, int light, double probability,
+             const float* shares) const;
 
   std::vector<Node> nodes_;
   std::vector<Trail> trails_;
   int depth_ = 0;
+  uint32_t slot_count_ = 0;
 };
 
 /// Joint bounds of two groups of lights. A group without power is ignored.
