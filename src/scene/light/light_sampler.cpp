@@ -236,22 +236,18 @@ void LightSampler::survey(const Vec3f& p, const Vec3f& n, float u,
     std::vector<LightTree::Turn> turns;
     const auto choice = d.tree->survey(p, n, rest, turns);
     if (choice) found = static_cast<float>(arrives(choice->light) / choice->probability);
-    for (const LightTree::Turn& turn : turns) {
-      const auto expected = [&](float importance) {
-        return static_cast<float>(importance / turn.probability);
-      };
-      const uint32_t slot = slots_of_groups + turn.slot;
-      samples.push_back({slot, turn.takes_second ? 0.0f : found, expected(turn.first)});
-      samples.push_back({slot + 1, turn.takes_second ? found : 0.0f, expected(turn.second)});
-    }
+    for (const LightTree::Turn& turn : turns)
+      samples.push_back({slots_of_groups + turn.slot, static_cast<float>(found * turn.probability),
+                         turn.importance});
   } else {
     const Impl::FewImportances w = d.few_importances(p, n, nullptr);
     const auto lights = static_cast<double>(d.few_count);
-    const int chosen = std::min(static_cast<int>(rest * lights), d.few_count - 1);
-    if (w.of[chosen] > 0.0) found = static_cast<float>(arrives(d.few_lights[chosen]) * lights);
-    for (int i = 0; i < d.few_count; ++i)
-      samples.push_back({slots_of_groups + i, i == chosen ? found : 0.0f,
-                         static_cast<float>(w.of[i])});
+    const int i = std::min(static_cast<int>(rest * lights), d.few_count - 1);
+    if (w.of[i] > 0.0) {
+      const float light = arrives(d.few_lights[i]);
+      samples.push_back({slots_of_groups + i, light, static_cast<float>(w.of[i])});
+      found = static_cast<float>(light * lights);
+    }
   }
   if (slots_of_groups > 0) samples.push_back({slots_of_groups - 1, found, 1.0f});
 }

@@ -350,19 +350,18 @@ std::optional<LightTree::Choice> LightTree::survey(const Vec3f& p, const Vec3f& 
   double probability = 1.0;
   while (!(nodes_[index].child & kLeaf)) {
     const Node& node = nodes_[index];
-    Turn turn{.slot = node.slot,
-              .first = importance(nodes_[node.child].cluster),
-              .second = importance(nodes_[node.child + 1].cluster),
-              .probability = probability};
-    const double sum = double{turn.first} + turn.second;
+    const float first = importance(nodes_[node.child].cluster);
+    const float second = importance(nodes_[node.child + 1].cluster);
+    const double sum = double{first} + second;
     if (!(sum > 0.0)) return std::nullopt;
-    double first = turn.first / sum;
-    if (node.slot != kNoSlot && turn.first > 0.0f && turn.second > 0.0f) first = 0.25 + 0.5 * first;
-    turn.takes_second = u >= first;
-    u = std::min(turn.takes_second ? (u - first) / (1.0 - first) : u / first, 1.0 - 0x1p-53);
-    probability *= turn.takes_second ? 1.0 - first : first;
-    index = node.child + (turn.takes_second ? 1 : 0);
-    if (node.slot != kNoSlot) turns.push_back(turn);
+    const bool has_slots = node.slot != kNoSlot;
+    double chosen = first / sum;
+    if (has_slots && first > 0.0f && second > 0.0f) chosen = 0.25 + 0.5 * chosen;
+    const uint32_t turn = u < chosen ? 0 : 1;
+    u = std::min(turn == 0 ? u / chosen : (u - chosen) / (1.0 - chosen), 1.0 - 0x1p-53);
+    probability *= turn == 0 ? chosen : 1.0 - chosen;
+    if (has_slots) turns.push_back({node.slot + turn, turn == 0 ? first : second, probability});
+    index = node.child + turn;
   }
   return Choice{static_cast<int>(nodes_[index].child & ~kLeaf), probability};
 }

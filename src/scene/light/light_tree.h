@@ -48,11 +48,10 @@ class LightTree {
     int light = -1;
     double probability = 0;
   };
-  /// A turn on the way down whose two children have slots.
+  /// A node with a slot on the way down to a light.
   struct Turn {
-    uint32_t slot = 0;            ///< of the first child; the second one has the next
-    float first = 0, second = 0;  ///< importances
-    bool takes_second = false;
+    uint32_t slot = 0;
+    float importance = 0;
     double probability = 0;  ///< of coming here
   };
 
@@ -71,7 +70,7 @@ class LightTree {
   /// Number of nodes whose visibility can be learned: those of most power.
   uint32_t slot_count() const { return slot_count_; }
   /// Samples a light to learn from: as without shares, but with every child that can contribute at
-  /// least a quarter of the time. Adds its turns to `turns`.
+  /// least a quarter of the time. Adds the way down to `turns`.
   std::optional<Choice> survey(const Vec3f& p, const Vec3f& n, double u,
                                std::vector<Turn>& turns) const;
   /// True if sample_along() can return a light.

@@ -9,8 +9,8 @@ namespace {
 
 /// Cells are divided down to this number of points.
 constexpr size_t kPointsOfCell = 24;
-/// A cell counts what its parent knows like so many points of its own.
-constexpr double kPointsOfParent = 4;
+/// What a cell's parent knows of a slot counts like so many samples of its own.
+constexpr double kSamplesOfParent = 6;
 
 }  // namespace
 
@@ -30,8 +30,8 @@ class LightVisibility::Builder {
  private:
   /// [slot] Sums over points.
   struct Sums {
-    explicit Sums(size_t slots) : arrived(slots), expected(slots) {}
-    std::vector<double> arrived, expected;
+    explicit Sums(size_t slots) : arrived(slots), expected(slots), samples(slots) {}
+    std::vector<double> arrived, expected, samples;
   };
 
   Sums sums_of(std::span<const uint32_t> points) const {
@@ -40,18 +40,20 @@ class LightVisibility::Builder {
       for (const SlotSample& s : points_[i].samples) {
         sums.arrived[s.slot] += s.arrived;
         sums.expected[s.slot] += s.expected;
+        sums.samples[s.slot] += 1;
       }
     return sums;
   }
 
   /// Shares of a half of the points of a cell with `sums` and `shares`.
-  std::vector<double> shares_of_half(std::span<const uint32_t> half, const Sums& of_half,
-                                     const Sums& sums, const std::vector<double>& shares) const {
+  std::vector<double> shares_of_half(const Sums& of_half, const Sums& sums,
+                                     const std::vector<double>& shares) const {
     std::vector<double> found(slots_);
-    const double weight = kPointsOfParent / static_cast<double>(2 * half.size());
     for (size_t slot = 0; slot < slots_; ++slot) {
-      const double prior = weight * sums.expected[slot], all = of_half.expected[slot] + prior;
-      found[slot] = all > 0 ? (of_half.arrived[slot] + prior * shares[slot]) / all : shares[slot];
+      if (!(sums.samples[slot] > 0)) continue;
+      const double prior = kSamplesOfParent * sums.expected[slot] / sums.samples[slot];
+      const double all = of_half.expected[slot] + prior;
+      if (all > 0) found[slot] = (of_half.arrived[slot] + prior * shares[slot]) / all;
     }
     return found;
   }
@@ -81,7 +83,7 @@ class LightVisibility::Builder {
     const size_t first = points.size() / 2;
     const auto build_half = [&](uint32_t half, std::span<uint32_t> of_half) {
       const Sums sums_of_half = sums_of(of_half);
-      build(half, of_half, shares_of_half(of_half, sums_of_half, sums, shares), sums_of_half);
+      build(half, of_half, shares_of_half(sums_of_half, sums, shares), sums_of_half);
     };
     build_half(child, points.first(first));
     build_half(child + 1, points.subspan(first));
