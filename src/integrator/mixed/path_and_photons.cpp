@@ -25,6 +25,9 @@ constexpr uint64_t kMeasureStream = 0x6d656173757265;  // "measure"
 /// Required gain of merging more photons. Two passes are a rough estimate: they see neither the
 /// bias of merging nor the gain of camera paths from stratification over later passes.
 constexpr double kRequiredGain = 1.25;
+/// Required gain of merging direct light as well. Its edges (shadows, patterns of lamps) are the
+/// sharpest of all, so that after minutes their bias would be the largest error.
+constexpr double kRequiredGainOfDirectLight = 4;
 /// Photons straight from lights are tried if the others are not worse than caustic photons by this.
 constexpr double kWorthATrial = 1.5;
 /// Share of useful photon paths from which on guiding their emission costs more than it gains.
@@ -149,7 +152,8 @@ PathAndPhotons::Choice PathAndPhotons::best_of(
   } else {
     guided.rays = 0;
     if (inverse_efficiency(all.candidate) < kWorthATrial * inverse_efficiency(best.candidate))
-      keep_better(all, try_photons(ClassMask::kNone, std::move(guided)), kRequiredGain);
+      keep_better(all, try_photons(ClassMask::kNone, std::move(guided)),
+                  kRequiredGainOfDirectLight);
     keep_better(best, std::move(all), kRequiredGain);
   }
   if (best.candidate.techniques.merges_all_light()) return without_chains(std::move(best));

@@ -7,10 +7,10 @@ namespace nephroid {
 
 namespace {
 
-/// Cells are divided down to this number of points.
-constexpr size_t kPointsOfCell = 24;
-/// What a cell's parent knows of a slot counts like so many samples of its own.
-constexpr double kSamplesOfParent = 6;
+/// Cells have at least so many points (ADR 43: fewer follow shadows more closely, but are noisier).
+constexpr size_t kPointsOfCell = 64;
+/// What the cell around knows of a slot counts like so many samples of a cell's own.
+constexpr double kSamplesOfParent = 20;
 
 }  // namespace
 
@@ -48,7 +48,7 @@ class LightVisibility::Builder {
   /// Shares of a half of the points of a cell with `sums` and `shares`.
   std::vector<double> shares_of_half(const Sums& of_half, const Sums& sums,
                                      const std::vector<double>& shares) const {
-    std::vector<double> found(slots_);
+    std::vector<double> found = shares;
     for (size_t slot = 0; slot < slots_; ++slot) {
       if (!(sums.samples[slot] > 0)) continue;
       const double prior = kSamplesOfParent * sums.expected[slot] / sums.samples[slot];

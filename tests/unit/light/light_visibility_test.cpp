@@ -1,0 +1,68 @@
+// Cells of learned visibility.
+#include "scene/light/light_visibility.h"
+
+#include <gtest/gtest.h>
+
+#include "unit/bsdf/statistics.h"
+
+namespace nephroid {
+namespace {
+
+using testing_bsdf::TestRandom;
+
+/// Random points in a unit cube, each with one sample of slot 0, of which `arrives(p)` arrives.
+template <class Arrives>
+std::vector<SurveyedPoint> points_in_a_cube(int count, const Arrives& arrives) {
+  TestRandom random(61);
+  std::vector<SurveyedPoint> points(count);
+  for (SurveyedPoint& point : points) {
+    point.p = {random.next(), random.next(), random.next()};
+    const float expected = 0.5f + random.next();
+    point.samples = {{0, expected * arrives(point.p), expected}};
+  }
+  return points;
+}
+
+TEST(LightVisibility, IsTheShareThatArrives) {
+  const LightVisibility visibility(points_in_a_cube(5000, [](const Vec3f&) { return 0.3f; }), 1);
+  TestRandom random(62);
+  for (int i = 0; i < 100; ++i)
+    EXPECT_NEAR(*visibility.at({random.next(), random.next(), random.next()}), 0.3f, 1e-5f);
+}
+
+TEST(LightVisibility, DiffersFromPlaceToPlace) {
+  const LightVisibility visibility(
+      points_in_a_cube(20000, [](const Vec3f& p) { return p.y < 0.5f ? 0.0f : 1.0f; }), 1);
+  TestRandom random(63);
+  for (int i = 0; i < 100; ++i) {
+    const float x = random.next(), z = random.next();
+    EXPECT_LT(*visibility.at({x, 0.2f, z}), 0.1f);
+    EXPECT_GT(*visibility.at({x, 0.8f, z}), 0.9f);
+    // Outside of all points the nearest cell counts.
+    EXPECT_GT(*visibility.at({x, 100, z}), 0.9f);
+  }
+}
+
+TEST(LightVisibility, TakesSlotsWithoutSamplesFromTheCellAround) {
+  std::vector<SurveyedPoint> points = points_in_a_cube(1000, [](const Vec3f&) { return 1.0f; });
+  points.front().samples.push_back({1, 0.25f, 1.0f});
+  const LightVisibility visibility(points, 3);
+  for (const Vec3f& p : {Vec3f(0.1f, 0.1f, 0.1f), Vec3f(0.9f, 0.9f, 0.9f)}) {
+    EXPECT_NEAR(visibility.at(p)[1], 0.25f, 1e-6f);
+    EXPECT_EQ(visibility.at(p)[2], 0.0f);
+  }
+}
+
+TEST(LightVisibility, EndsWherePointsCoincide) {
+  std::vector<SurveyedPoint> points(1000);
+  for (SurveyedPoint& point : points) point = {{1, 2, 3}, {{0, 0.5f, 1.0f}}};
+  EXPECT_NEAR(*LightVisibility(points, 1).at({1, 2, 3}), 0.5f, 1e-6f);
+}
+
+TEST(LightVisibility, OfNoPointsIsEmpty) {
+  EXPECT_TRUE(LightVisibility().empty());
+  EXPECT_TRUE(LightVisibility(std::vector<SurveyedPoint>(), 3).empty());
+}
+
+}  // namespace
+}  // namespace nephroid
