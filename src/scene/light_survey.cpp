@@ -102,7 +102,8 @@ class SurveyPath {
         reflects = !bsdf.eval(wo, wi, TransportMode::kRadiance, c, ClassMask::kAll).f.is_black();
     if (!reflects) return 0;
     const SampledSpectrum light_here =
-        s->radiance * scene_.transmittance(shadow_ray(hit.spawn_origin(s->wi), *s, ray_.time), lambda_);
+        s->radiance *
+        scene_.transmittance(shadow_ray(hit.spawn_origin(s->wi), *s, ray_.time), lambda_);
     const float found = light_here.average() * abs_cos_theta(wi) / s->pdf_w;
     return std::isfinite(found) ? found : 0;
   }

@@ -228,7 +228,7 @@ void LightSampler::survey(const Vec3f& p, const Vec3f& n, float u,
   const auto [group, group_probability, rest] = d.choose_group(refine(u, p), nullptr);
   if (group < d.infinite.size()) {
     const float light = arrives(d.infinite[group]);
-    if (slots_of_groups > 0) samples.push_back({static_cast<uint32_t>(group), sqr(light), 1.0f});
+    if (slots_of_groups > 0) samples.push_back({static_cast<uint32_t>(group), sqr(light)});
     return;
   }
   float found = 0.0f;
@@ -237,19 +237,19 @@ void LightSampler::survey(const Vec3f& p, const Vec3f& n, float u,
     const auto choice = d.tree->survey(p, n, rest, turns);
     if (choice) found = static_cast<float>(arrives(choice->light) / choice->probability);
     for (const LightTree::Turn& turn : turns)
-      samples.push_back({slots_of_groups + turn.slot, static_cast<float>(found * turn.probability),
-                         turn.importance});
+      samples.push_back({slots_of_groups + turn.slot,
+                         static_cast<float>(found * turn.probability / turn.importance)});
   } else {
     const Impl::FewImportances w = d.few_importances(p, n, nullptr);
     const auto lights = static_cast<double>(d.few_count);
     const int i = std::min(static_cast<int>(rest * lights), d.few_count - 1);
     if (w.of[i] > 0.0) {
       const float light = arrives(d.few_lights[i]);
-      samples.push_back({slots_of_groups + i, light, static_cast<float>(w.of[i])});
+      samples.push_back({slots_of_groups + i, static_cast<float>(light / w.of[i])});
       found = static_cast<float>(light * lights);
     }
   }
-  if (slots_of_groups > 0) samples.push_back({slots_of_groups - 1, found, 1.0f});
+  if (slots_of_groups > 0) samples.push_back({slots_of_groups - 1, found});
 }
 
 void LightSampler::learn(LightVisibility visibility) {

@@ -38,7 +38,8 @@ class LightSampler {
   /// Probability that sample() returns `light` at this point.
   float pmf(const Vec3f& p, const Vec3f& n, int light) const;
 
-  /// Number of lights and groups of lights whose visibility can be learned; 0 if there is no choice.
+  /// Number of lights and groups of lights whose visibility can be learned; 0 if there is no
+  /// choice.
   size_t slot_count() const;
   /// Samples a light for a point to learn from, and adds what is found to `samples`. `arrives` is
   /// called with the light; it returns the light that arrives at the point over the density of its

@@ -281,8 +281,7 @@ double LightTree::first_probability(const Node& node, const Importance& importan
 
 template <class Importance>
 std::optional<LightTree::Choice> LightTree::sample(const Importance& importance, double u,
-                                                   double probability,
-                                                   const float* shares) const {
+                                                   double probability, const float* shares) const {
   if (nodes_.empty()) return std::nullopt;
   const Node* node = &nodes_[0];
   if (!(importance(node->cluster) > 0.0f)) return std::nullopt;
@@ -333,8 +332,7 @@ auto importance_along(const Ray& ray, float t_max) {
 }  // namespace
 
 std::optional<LightTree::Choice> LightTree::sample(const Vec3f& p, const Vec3f& n, double u,
-                                                   double probability,
-                                                   const float* shares) const {
+                                                   double probability, const float* shares) const {
   return sample(importance_at(p, n), u, probability, shares);
 }
 double LightTree::pmf(const Vec3f& p, const Vec3f& n, int light, double probability,

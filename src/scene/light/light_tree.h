@@ -89,7 +89,7 @@ class LightTree {
   static constexpr uint32_t kLeaf = 0x80000000u, kNoSlot = 0xffffffffu;
   struct Node {
     LightCluster cluster;
-    uint32_t child = 0;  ///< first of two adjacent children; or kLeaf | index of the light
+    uint32_t child = 0;       ///< first of two adjacent children; or kLeaf | index of the light
     uint32_t slot = kNoSlot;  ///< slot of the first child
   };
   struct Trail {

@@ -173,9 +173,8 @@ TEST(LightSampler, LearnsHowBrightInfiniteLightsAreInAPlace) {
   const auto lights = zoo(3, 2);
   LightSampler sampler(lights);
   // The second sky is hidden from x < 0.5, and much brighter than all else.
-  teach(sampler, [](int light, const Vec3f& p) {
-    return light == 1 ? (p.x < 0.5f ? 0.0f : 100.0f) : 0.1f;
-  });
+  teach(sampler,
+        [](int light, const Vec3f& p) { return light == 1 ? (p.x < 0.5f ? 0.0f : 100.0f) : 0.1f; });
   EXPECT_LT(sampler.pmf({-0.5f, 0, 0}, {0, 0, 1}, 1), 0.1f);
   EXPECT_GT(sampler.pmf({1.5f, 0, 0}, {0, 0, 1}, 1), 0.9f);
 }
