@@ -1,6 +1,6 @@
 // The immutable, traceable scene, as integrators see it. Built once by build_scene from a
 // SceneDescription; read by any number of threads. Between renders, renew_camera (scene_view.h) can
-// exchange its camera.
+// exchange its camera, and a render teaches its light sampler.
 #pragma once
 
 #include <memory>

@@ -8,7 +8,6 @@
 #include "core/parallel.h"
 #include "scene/camera/camera.h"
 #include "scene/inside_out.h"
-#include "scene/light_survey.h"
 #include "scene/pixel_filter.h"
 #include "scene/sampler_description.h"
 #include "scene/scene.h"
@@ -253,7 +252,6 @@ class SceneBuilder {
     for (const LightPtr& light : scene_->lights) light->set_scene_sphere(scene_->sphere);
     surround_infinite_lights(*scene_, d_, *media_);
     scene_->light_sampler = std::make_unique<LightSampler>(scene_->lights);
-    scene_->light_sampler->learn(survey_lights(*scene_));
     inside_out_.report(scene_->top, scene_->camera->camera_to_world(0.0f).point(Vec3f(0, 0, 0)),
                        diagnostics_);
     if (scene_->shape_count == 0) diagnostics_.warn(file, "the scene has no shapes");

@@ -5,7 +5,6 @@
 
 #include "scene/camera/camera.h"
 #include "scene/film_description.h"
-#include "scene/light_survey.h"
 #include "scene/surrounding_medium.h"
 
 namespace nephroid {
@@ -57,7 +56,6 @@ void renew_camera(Scene& scene, const SceneDescription& description,
   set_film_and_camera(scene, description, overrides, diagnostics);
   scene.camera_medium = camera_medium;
   surround_infinite_lights(scene, description, media);
-  scene.light_sampler->learn(survey_lights(scene));
 }
 
 }  // namespace nephroid

@@ -24,6 +24,7 @@
 #include "session/report/invalid_samples.h"
 #include "session/report/lamp_report.h"
 #include "session/report/noise.h"
+#include "transport/light_survey.h"
 
 namespace nephroid {
 namespace {
@@ -122,6 +123,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   next_picture_seconds_ = 0;
   RenderResult result;
   take_quick_look(signals);
+  scene_.light_sampler->learn(options_.learns_lights ? survey_lights(scene_) : LightVisibility());
   std::optional<StopReason> reason;
   if (!done_.empty() && (!open_pass_ || !is_wanted(*open_pass_))) {
     // Earlier runs may already have met a stop rule.

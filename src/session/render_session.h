@@ -39,6 +39,9 @@ struct RenderOptions {
   LayerPrecision layer_precision = LayerPrecision::kHalf;
   Checkpoint begin_with;  ///< progress that film and estimators already hold
   float png_exposure = 1;
+  /// Whether the render begins with a survey of which lights reach which places
+  /// (transport/light_survey.h), which its scene's light sampler keeps until the next render.
+  bool learns_lights = true;
   /// Path depth of the quick look before the first pass (quick_look.h); 0: none.
   int quick_look_depth = 0;
   std::vector<std::string> notes;  ///< notes on choices, for the picture's metadata

@@ -24,6 +24,7 @@ class CasterRule {
   bool merges_all_light() const {
     return casters_ == ClassMask::kNone || casters_ == ClassMask::kAll;
   }
+  bool merges_direct_light() const { return casters_ == ClassMask::kNone; }
   /// True if whatever lets one vertex merge lets each D and G in front of it merge, too. Glossy
   /// casters do so for D alone.
   bool holds_in_front() const { return casters_ != (ClassMask::kSpecular | ClassMask::kGlossy); }

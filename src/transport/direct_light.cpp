@@ -1,7 +1,5 @@
 #include "transport/direct_light.h"
 
-#include "scene/light/shadow_ray.h"
-
 namespace nephroid {
 
 std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at,
@@ -28,7 +26,18 @@ std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at
   d.p = s->p;
   d.ng = s->ng;
   d.medium = at.surface ? medium_towards(*at.surface, s->wi, at.medium) : at.medium;
-  d.shadow_ray = shadow_ray(at.surface ? at.surface->spawn_origin(s->wi) : at.p, *s, at.time);
+  // Both ends are offset by their own error bounds. The margin on t_max keeps the ray from reaching
+  // the emitter itself.
+  d.shadow_ray.o = at.surface ? at.surface->spawn_origin(s->wi) : at.p;
+  d.shadow_ray.time = at.time;
+  if (s->infinite) {
+    d.shadow_ray.d = s->wi;
+    return d;
+  }
+  const Vec3f end =
+      length_squared(s->ng) > 0 ? offset_ray_origin(s->p, s->p_error, s->ng, -s->wi) : s->p;
+  d.shadow_ray.d = end - d.shadow_ray.o;
+  d.shadow_ray.t_max = 1.0f - 1e-5f;
   return d;
 }
 

@@ -42,6 +42,7 @@ RenderRequest preview_request(const RenderRequest& request, const FilmDescriptio
   preview.routes.integrator = "path";
   preview.reject_outliers = false;
   preview.options.show_error = false;
+  preview.options.learns_lights = false;
   preview.options.time_limit = preview.options.noise_target = 0;
   preview.options.last_pass = kEndlessPasses;
   return preview;

@@ -96,6 +96,7 @@ struct PairSettings {
 
   bool connects() const { return !merging || merging->connects; }
   bool merges_all_light() const { return merging && merging->merges_all_light(); }
+  bool merges_direct_light() const { return merging && merging->rule.merges_direct_light(); }
   bool gathers_in_media() const { return merging && merging->gathers_in_media; }
 };
 

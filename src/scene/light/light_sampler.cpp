@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "core/sampler.h"
@@ -18,6 +19,10 @@ namespace {
 constexpr int kFew = 4;
 /// Visibility of more infinite lights than this is not learned one by one.
 constexpr size_t kMaxLearnedGroups = 16;
+/// Light that arrives from a lamp that shines equally to all sides, over its importance, is 1 / (4
+/// pi). In a node of a tree it can be more, beside one of its lamps; a hundred times that is
+/// enough.
+constexpr double kMostOfSample = 100.0 / (4.0 * kPiDouble);
 /// The group of all lights that are not infinite.
 constexpr int kBounded = -1;
 
@@ -85,18 +90,20 @@ struct LightSampler::Impl {
       return last;
     }
   };
-  /// `shares` are those of the few lights' slots, or null.
-  FewImportances few_importances(const Vec3f& p, const Vec3f& n, const float* shares) const {
+  FewImportances few_importances(const Vec3f& p, const Vec3f& n) const {
     FewImportances w;
     for (int i = 0; i < few_count; ++i) w.sum += w.of[i] = few[i].importance(p, n);
-    if (!shares || !(w.sum > 0.0)) return w;
-    double arrives = 0.0;
-    for (int i = 0; i < few_count; ++i) arrives += w.of[i] * shares[i];
-    if (!(arrives > 0.0)) return w;
-    FewImportances learned{.of = {}, .sum = 1.0};
-    for (int i = 0; i < few_count; ++i)
-      learned.of[i] = learned_probability(w.of[i], shares[i], w.sum, arrives);
-    return learned;
+    return w;
+  }
+  /// Importances times what was learned; the importances if nothing is known.
+  FewImportances learned_importances(const FewImportances& plain, const float* shares) const {
+    if (!shares) return plain;
+    FewImportances w;
+    for (int i = 0; i < few_count; ++i) {
+      if (shares[i] < 0.0f) return plain;
+      w.sum += w.of[i] = plain.of[i] * shares[i];
+    }
+    return w.sum > 0.0 ? w : plain;
   }
   FewImportances few_importances_along(const Ray& ray, float t_max) const {
     FewImportances w;
@@ -110,54 +117,55 @@ struct LightSampler::Impl {
     return has_normal && !visibility.empty() ? visibility.at(p) : nullptr;
   }
   /// Slots begin with those of the groups, that of the bounded lights last.
-  size_t group_slots() const { return group_count <= kMaxLearnedGroups ? group_count : 0; }
+  size_t group_slots() const {
+    return group_count > 1 && group_count <= kMaxLearnedGroups ? group_count : 0;
+  }
   const float* shares_of_bounded(const float* shares) const {
     return shares ? shares + group_slots() : nullptr;
   }
-  /// Brightness of a group, for choosing among groups. The squares of light from an infinite light
-  /// are averaged, as its samples differ from each other.
-  double brightness(size_t group, const float* shares) const {
-    return group < infinite.size() ? std::sqrt(shares[group]) : shares[group];
-  }
-  double brightness_of_all(const float* shares) const {
+  /// Replaces what was learned of groups by probabilities: in proportion to their brightness. The
+  /// squares of light from an infinite light were averaged, as its samples differ from each other.
+  void turn_into_probabilities(float* shares) const {
     double sum = 0.0;
-    for (size_t i = 0; i < group_count; ++i) sum += brightness(i, shares);
-    return sum;
+    for (size_t i = 0; i < group_slots(); ++i) {
+      if (shares[i] < 0.0f) sum = std::numeric_limits<double>::infinity();  // not known
+      if (i < infinite.size()) shares[i] = std::sqrt(shares[i]);
+      sum += shares[i];
+    }
+    const bool knows = sum > 0.0 && std::isfinite(sum);
+    for (size_t i = 0; i < group_slots(); ++i)
+      shares[i] =
+          static_cast<float>(knows ? shares[i] / sum : 1.0 / static_cast<double>(group_count));
   }
-  double group_probability(size_t group, const float* shares, double brightness_of_all) const {
-    return learned_probability(1.0, brightness(group, shares), static_cast<double>(group_count),
-                               brightness_of_all);
+  ChoiceProbability group_probability(size_t group, const float* shares) const {
+    const double plain = 1.0 / static_cast<double>(group_count);
+    return {plain, shares && group_slots() > 0 ? double{shares[group]} : plain};
   }
-  double group_probability(size_t group, const float* shares) const {
-    if (!learns_groups(shares)) return 1.0 / static_cast<double>(group_count);
-    return group_probability(group, shares, brightness_of_all(shares));
-  }
-  bool learns_groups(const float* shares) const { return shares && group_slots() > 1; }
   struct GroupChoice {
     size_t group = 0;
-    double probability = 1;
+    ChoiceProbability probability;
     double rest = 0;  ///< what is left of the random number, in [0,1)
   };
   /// Samples a group by `u` in [0,1).
-  GroupChoice choose_group(double u, const float* shares) const {
+  GroupChoice choose_group(double u, const LightTree::Learned& learned) const {
     GroupChoice choice;
-    if (learns_groups(shares)) {
-      const double all = brightness_of_all(shares);
+    double of_chosen = 1.0 / static_cast<double>(group_count);
+    if (learned.follows && group_slots() > 0) {
       for (;; ++choice.group) {
-        choice.probability = group_probability(choice.group, shares, all);
-        if (u < choice.probability || choice.group + 1 == group_count) break;
-        u -= choice.probability;
+        of_chosen = learned.shares[choice.group];
+        if (u < of_chosen || choice.group + 1 == group_count) break;
+        u -= of_chosen;
       }
-      choice.rest = u / choice.probability;
     } else {
-      const auto count = static_cast<double>(group_count);
-      choice.group = std::min(static_cast<size_t>(u * count), group_count - 1);
-      choice.probability = 1.0 / count;
-      choice.rest = u * count - static_cast<double>(choice.group);
+      choice.group = std::min(static_cast<size_t>(u / of_chosen), group_count - 1);
+      u -= static_cast<double>(choice.group) * of_chosen;
     }
-    choice.rest = std::min(choice.rest, 1.0 - 0x1p-53);
+    choice.probability = group_probability(choice.group, learned.shares);
+    choice.rest = of_chosen > 0.0 ? std::clamp(u / of_chosen, 0.0, 1.0 - 0x1p-53) : 0.0;
     return choice;
   }
+  bool has_bounded() const { return group_count > infinite.size(); }
+  ChoiceProbability pmf(const Vec3f& p, const Vec3f& n, int light, const float* shares) const;
 
   std::vector<int> infinite;
   std::vector<int> group_of;  ///< [light] index in `infinite`, or kBounded
@@ -180,44 +188,62 @@ LightSampler::LightSampler(LightSampler&&) noexcept = default;
 std::optional<LightChoice> LightSampler::sample(const Vec3f& p, const Vec3f& n, float u) const {
   const Impl& d = *impl_;
   if (d.group_count == 0) return std::nullopt;
-  const float* shares = d.shares_at(p, n);
-  const Impl::GroupChoice group = d.choose_group(refine(u, p), shares);
-  const double v = group.rest, bounded = group.probability;
-  if (group.group < d.infinite.size())
-    return LightChoice{d.infinite[group.group], static_cast<float>(group.probability)};
-  shares = d.shares_of_bounded(shares);
-  if (d.tree) {
-    const auto choice = d.tree->sample(p, n, v, bounded, shares);
-    if (!choice) return std::nullopt;
-    return LightChoice{choice->light, static_cast<float>(choice->probability)};
+  double v = refine(u, p);
+  LightTree::Learned learned{.shares = d.shares_at(p, n)};
+  if (learned.shares) {
+    learned.follows = v >= kUnlearned;
+    v = learned.follows ? (v - kUnlearned) / (1.0 - kUnlearned) : v / kUnlearned;
+    v = std::min(v, 1.0 - 0x1p-53);
   }
-  const Impl::FewImportances w = d.few_importances(p, n, shares);
-  if (!(w.sum > 0.0)) return std::nullopt;
-  const int i = w.choose(v * w.sum, d.few_count);
-  return LightChoice{d.few_lights[i], static_cast<float>(bounded * (w.of[i] / w.sum))};
+  const auto choice = [](int light, const ChoiceProbability& probability) {
+    return LightChoice{light, static_cast<float>(probability.mixed())};
+  };
+  Impl::GroupChoice group = d.choose_group(v, learned);
+  if (group.group < d.infinite.size()) return choice(d.infinite[group.group], group.probability);
+  learned.shares = d.shares_of_bounded(learned.shares);
+  if (d.tree) {
+    const auto chosen = d.tree->sample(p, n, group.rest, learned);
+    if (!chosen) return std::nullopt;
+    return choice(chosen->light, group.probability *= chosen->probability);
+  }
+  const Impl::FewImportances plain = d.few_importances(p, n);
+  if (!(plain.sum > 0.0)) return std::nullopt;
+  const Impl::FewImportances known = d.learned_importances(plain, learned.shares);
+  const Impl::FewImportances& w = learned.follows ? known : plain;
+  const int i = w.choose(group.rest * w.sum, d.few_count);
+  return choice(d.few_lights[i],
+                group.probability *= {plain.of[i] / plain.sum, known.of[i] / known.sum});
+}
+
+ChoiceProbability LightSampler::Impl::pmf(const Vec3f& p, const Vec3f& n, int light,
+                                          const float* shares) const {
+  constexpr ChoiceProbability kNever{0.0, 0.0};
+  if (light < 0 || light >= static_cast<int>(group_of.size())) return kNever;
+  if (group_of[light] != kBounded) return group_probability(group_of[light], shares);
+  if (!has_bounded()) return kNever;
+  ChoiceProbability probability = group_probability(infinite.size(), shares);
+  shares = shares_of_bounded(shares);
+  if (tree) return probability *= tree->pmf(p, n, light, shares);
+  const FewImportances plain = few_importances(p, n);
+  if (!(plain.sum > 0.0)) return kNever;
+  const FewImportances known = learned_importances(plain, shares);
+  for (int i = 0; i < few_count; ++i)
+    if (few_lights[i] == light)
+      return probability *= {plain.of[i] / plain.sum, known.of[i] / known.sum};
+  return kNever;
 }
 
 float LightSampler::pmf(const Vec3f& p, const Vec3f& n, int light) const {
-  const Impl& d = *impl_;
-  if (light < 0 || light >= static_cast<int>(d.group_of.size())) return 0.0f;
-  const float* shares = d.shares_at(p, n);
-  const bool is_infinite = d.group_of[light] != kBounded;
-  const double of_group =
-      d.group_probability(is_infinite ? d.group_of[light] : d.infinite.size(), shares);
-  if (is_infinite) return static_cast<float>(of_group);
-  shares = d.shares_of_bounded(shares);
-  if (d.tree) return static_cast<float>(d.tree->pmf(p, n, light, of_group, shares));
-  const Impl::FewImportances w = d.few_importances(p, n, shares);
-  if (!(w.sum > 0.0)) return 0.0f;
-  for (int i = 0; i < d.few_count; ++i)
-    if (d.few_lights[i] == light) return static_cast<float>(of_group * (w.of[i] / w.sum));
-  return 0.0f;
+  return static_cast<float>(impl_->pmf(p, n, light, impl_->shares_at(p, n)).mixed());
+}
+float LightSampler::plain_pmf(const Vec3f& p, const Vec3f& n, int light) const {
+  return static_cast<float>(impl_->pmf(p, n, light, nullptr).plain);
 }
 
 size_t LightSampler::slot_count() const {
   const Impl& d = *impl_;
   const size_t bounded = d.tree ? d.tree->slot_count() : d.few_count;
-  return d.group_slots() > 1 || bounded > 1 ? d.group_slots() + bounded : 0;
+  return d.group_slots() > 0 || bounded > 1 ? d.group_slots() + bounded : 0;
 }
 
 void LightSampler::survey(const Vec3f& p, const Vec3f& n, float u,
@@ -225,34 +251,37 @@ void LightSampler::survey(const Vec3f& p, const Vec3f& n, float u,
                           std::vector<SlotSample>& samples) const {
   const Impl& d = *impl_;
   const auto slots_of_groups = static_cast<uint32_t>(d.group_slots());
-  const auto [group, group_probability, rest] = d.choose_group(refine(u, p), nullptr);
-  if (group < d.infinite.size()) {
-    const float light = arrives(d.infinite[group]);
-    if (slots_of_groups > 0) samples.push_back({static_cast<uint32_t>(group), sqr(light)});
+  Impl::GroupChoice group{.group = d.infinite.size(), .probability = {}, .rest = refine(u, p)};
+  if (slots_of_groups > 0) group = d.choose_group(group.rest, {});
+  if (group.group < d.infinite.size()) {
+    const double light = arrives(d.infinite[group.group]);
+    samples.push_back({static_cast<uint32_t>(group.group), sqr(light)});
     return;
   }
-  float found = 0.0f;
+  double found = 0.0;
   if (d.tree) {
     std::vector<LightTree::Turn> turns;
-    const auto choice = d.tree->survey(p, n, rest, turns);
-    if (choice) found = static_cast<float>(arrives(choice->light) / choice->probability);
+    const auto choice = d.tree->survey(p, n, group.rest, turns);
+    if (choice) found = arrives(choice->light) / choice->probability;
     for (const LightTree::Turn& turn : turns)
       samples.push_back({slots_of_groups + turn.slot,
-                         static_cast<float>(found * turn.probability / turn.importance)});
+                         std::min(found * turn.probability / turn.importance, kMostOfSample)});
   } else {
-    const Impl::FewImportances w = d.few_importances(p, n, nullptr);
+    const Impl::FewImportances w = d.few_importances(p, n);
     const auto lights = static_cast<double>(d.few_count);
-    const int i = std::min(static_cast<int>(rest * lights), d.few_count - 1);
+    const int i = std::min(static_cast<int>(group.rest * lights), d.few_count - 1);
     if (w.of[i] > 0.0) {
-      const float light = arrives(d.few_lights[i]);
-      samples.push_back({slots_of_groups + i, static_cast<float>(light / w.of[i])});
-      found = static_cast<float>(light * lights);
+      const double light = arrives(d.few_lights[i]);
+      samples.push_back({slots_of_groups + i, std::min(light / w.of[i], kMostOfSample)});
+      found = light * lights;
     }
   }
   if (slots_of_groups > 0) samples.push_back({slots_of_groups - 1, found});
 }
 
 void LightSampler::learn(LightVisibility visibility) {
+  if (impl_->group_slots() > 0)
+    visibility.for_each_cell([this](float* shares) { impl_->turn_into_probabilities(shares); });
   impl_->visibility = std::move(visibility);
 }
 
@@ -263,7 +292,7 @@ std::optional<LightAlong> LightSampler::sample_along(const Ray& ray, float t_max
     if (!d.tree->shines_along(ray, t_max)) return std::nullopt;
     const auto choice = d.tree->sample_along(ray, t_max, v);
     if (!choice) return LightAlong();
-    return LightAlong{choice->light, static_cast<float>(choice->probability),
+    return LightAlong{choice->light, static_cast<float>(choice->probability.plain),
                       d.tree->leaf(choice->light)->along(ray, t_max)};
   }
   const Impl::FewImportances w = d.few_importances_along(ray, t_max);

@@ -37,16 +37,20 @@ class LightSampler {
   std::optional<LightChoice> sample(const Vec3f& p, const Vec3f& n, float u) const;
   /// Probability that sample() returns `light` at this point.
   float pmf(const Vec3f& p, const Vec3f& n, int light) const;
+  /// The same if nothing had been learned: it has no jumps between cells.
+  float plain_pmf(const Vec3f& p, const Vec3f& n, int light) const;
 
   /// Number of lights and groups of lights whose visibility can be learned; 0 if there is no
   /// choice.
   size_t slot_count() const;
-  /// Samples a light for a point to learn from, and adds what is found to `samples`. `arrives` is
-  /// called with the light; it returns the light that arrives at the point over the density of its
-  /// sample, of which only ratios count.
+  /// Samples a light by `u` in [0,1) for a point to learn from, and adds what is found to
+  /// `samples`: nothing if no light can contribute. `arrives` is called with the light, at most
+  /// once; it returns the light that arrives at the point over the density of its sample, of which
+  /// only ratios count.
   void survey(const Vec3f& p, const Vec3f& n, float u, const std::function<float(int)>& arrives,
               std::vector<SlotSample>& samples) const;
-  /// From now on sample() and pmf() follow what was learned, at points with a normal.
+  /// From now on sample() and pmf() follow what was learned by survey(), at points with a normal.
+  /// Not while a thread samples.
   void learn(LightVisibility visibility);
 
   /// Samples a bounded light for a ray of unit direction, by what it can send to all of its points

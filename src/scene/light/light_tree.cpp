@@ -5,8 +5,6 @@
 #include <array>
 #include <queue>
 
-#include "scene/light/light_visibility.h"
-
 namespace nephroid {
 
 namespace {
@@ -267,34 +265,48 @@ LightBounds LightTree::build(uint32_t node, std::vector<Item>& items, size_t beg
   return both;
 }
 
+namespace {
+
+/// The other one of two alternatives.
+ChoiceProbability second_of(const ChoiceProbability& first) {
+  return {1.0 - first.plain, 1.0 - first.learned};
+}
+
+}  // namespace
+
 template <class Importance>
-double LightTree::first_probability(const Node& node, const Importance& importance,
-                                    const float* shares) const {
+ChoiceProbability LightTree::first_probability(const Node& node, const Importance& importance,
+                                               const float* shares) const {
   const double first = importance(nodes_[node.child].cluster);
   const double second = importance(nodes_[node.child + 1].cluster);
   const double sum = first + second;
-  if (!(sum > 0.0)) return -1.0;
-  if (!shares || node.slot == kNoSlot) return first / sum;
+  if (!(sum > 0.0)) return {-1.0, -1.0};
+  const double plain = first / sum;
+  if (!shares || node.slot == kNoSlot) return {plain, plain};
   const float* of = shares + node.slot;
-  return learned_probability(first, of[0], sum, first * of[0] + second * of[1]);
+  const double first_arrives = first * of[0], arrives = first_arrives + second * of[1];
+  const bool knows = of[0] >= 0.0f && of[1] >= 0.0f && arrives > 0.0;
+  return {plain, knows ? first_arrives / arrives : plain};
 }
 
 template <class Importance>
 std::optional<LightTree::Choice> LightTree::sample(const Importance& importance, double u,
-                                                   double probability, const float* shares) const {
+                                                   const Learned& learned) const {
   if (nodes_.empty()) return std::nullopt;
   const Node* node = &nodes_[0];
   if (!(importance(node->cluster) > 0.0f)) return std::nullopt;
+  ChoiceProbability probability;
   while (!(node->child & kLeaf)) {
-    const double first = first_probability(*node, importance, shares);
+    const ChoiceProbability both = first_probability(*node, importance, learned.shares);
+    const double first = learned.follows ? both.learned : both.plain;
     if (first < 0.0) return std::nullopt;
     if (u < first) {
       u /= first;
-      probability *= first;
+      probability *= both;
       node = &nodes_[node->child];
     } else {
       u = (u - first) / (1.0 - first);
-      probability *= 1.0 - first;
+      probability *= second_of(both);
       node = &nodes_[node->child + 1];
     }
     // Rounding must not lead to a child of probability 0 further down.
@@ -304,16 +316,17 @@ std::optional<LightTree::Choice> LightTree::sample(const Importance& importance,
 }
 
 template <class Importance>
-double LightTree::pmf(const Importance& importance, int light, double probability,
-                      const float* shares) const {
-  if (!contains(light)) return 0.0;
+ChoiceProbability LightTree::pmf(const Importance& importance, int light,
+                                 const float* shares) const {
+  if (!contains(light)) return {0.0, 0.0};
   const Node* node = &nodes_[0];
-  if (!(importance(node->cluster) > 0.0f)) return 0.0;
+  if (!(importance(node->cluster) > 0.0f)) return {0.0, 0.0};
+  ChoiceProbability probability;
   uint64_t trail = trails_[light].bits;
   while (!(node->child & kLeaf)) {
-    const double first = first_probability(*node, importance, shares);
-    if (first < 0.0) return 0.0;
-    probability *= trail & 1 ? 1.0 - first : first;
+    const ChoiceProbability first = first_probability(*node, importance, shares);
+    if (first.plain < 0.0) return {0.0, 0.0};
+    probability *= trail & 1 ? second_of(first) : first;
     node = &nodes_[node->child + (trail & 1)];
     trail >>= 1;
   }
@@ -332,16 +345,16 @@ auto importance_along(const Ray& ray, float t_max) {
 }  // namespace
 
 std::optional<LightTree::Choice> LightTree::sample(const Vec3f& p, const Vec3f& n, double u,
-                                                   double probability, const float* shares) const {
-  return sample(importance_at(p, n), u, probability, shares);
+                                                   const Learned& learned) const {
+  return sample(importance_at(p, n), u, learned);
 }
-double LightTree::pmf(const Vec3f& p, const Vec3f& n, int light, double probability,
-                      const float* shares) const {
-  return pmf(importance_at(p, n), light, probability, shares);
+ChoiceProbability LightTree::pmf(const Vec3f& p, const Vec3f& n, int light,
+                                 const float* shares) const {
+  return pmf(importance_at(p, n), light, shares);
 }
 
-std::optional<LightTree::Choice> LightTree::survey(const Vec3f& p, const Vec3f& n, double u,
-                                                   std::vector<Turn>& turns) const {
+std::optional<LightTree::Surveyed> LightTree::survey(const Vec3f& p, const Vec3f& n, double u,
+                                                     std::vector<Turn>& turns) const {
   const auto importance = importance_at(p, n);
   if (nodes_.empty() || !(importance(nodes_[0].cluster) > 0.0f)) return std::nullopt;
   uint32_t index = 0;
@@ -361,15 +374,15 @@ std::optional<LightTree::Choice> LightTree::survey(const Vec3f& p, const Vec3f& 
     if (has_slots) turns.push_back({node.slot + turn, turn == 0 ? first : second, probability});
     index = node.child + turn;
   }
-  return Choice{static_cast<int>(nodes_[index].child & ~kLeaf), probability};
+  return Surveyed{static_cast<int>(nodes_[index].child & ~kLeaf), probability};
 }
 
 std::optional<LightTree::Choice> LightTree::sample_along(const Ray& ray, float t_max,
                                                          double u) const {
-  return sample(importance_along(ray, t_max), u, 1.0, nullptr);
+  return sample(importance_along(ray, t_max), u, {});
 }
 double LightTree::pmf_along(const Ray& ray, float t_max, int light) const {
-  return pmf(importance_along(ray, t_max), light, 1.0, nullptr);
+  return pmf(importance_along(ray, t_max), light, nullptr).plain;
 }
 
 const LightCluster* LightTree::leaf(int light) const {

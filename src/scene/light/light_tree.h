@@ -11,6 +11,7 @@
 
 #include "scene/light/equiangular.h"
 #include "scene/light/light.h"
+#include "scene/light/light_visibility.h"
 
 namespace nephroid {
 
@@ -46,7 +47,12 @@ class LightTree {
   };
   struct Choice {
     int light = -1;
-    double probability = 0;
+    ChoiceProbability probability;
+  };
+  /// What LightVisibility has learned for the slots at a point, or null.
+  struct Learned {
+    const float* shares = nullptr;
+    bool follows = false;  ///< whether a sample follows it; its probabilities count in any case
   };
   /// A node with a slot on the way down to a light.
   struct Turn {
@@ -59,20 +65,22 @@ class LightTree {
   LightTree(std::vector<Item> items, int light_count);
 
   bool empty() const { return nodes_.empty(); }
-  /// Samples a light by `u` in [0,1). Its probability is multiplied by `probability`. Empty if no
-  /// light can contribute. `shares` are what LightVisibility has learned for the tree's slots, or
-  /// null.
-  std::optional<Choice> sample(const Vec3f& p, const Vec3f& n, double u, double probability,
-                               const float* shares) const;
-  /// The probability of that choice; 0 for lights that are not in the tree.
-  double pmf(const Vec3f& p, const Vec3f& n, int light, double probability,
-             const float* shares) const;
+  /// Samples a light by `u` in [0,1). Empty if no light can contribute.
+  std::optional<Choice> sample(const Vec3f& p, const Vec3f& n, double u,
+                               const Learned& learned) const;
+  /// The probabilities of that choice; 0 for lights that are not in the tree.
+  ChoiceProbability pmf(const Vec3f& p, const Vec3f& n, int light, const float* shares) const;
   /// Number of nodes whose visibility can be learned: those of most power.
   uint32_t slot_count() const { return slot_count_; }
-  /// Samples a light to learn from: as without shares, but with every child that can contribute at
-  /// least a quarter of the time. Adds the way down to `turns`.
-  std::optional<Choice> survey(const Vec3f& p, const Vec3f& n, double u,
-                               std::vector<Turn>& turns) const;
+  /// Samples a light to learn from, as without shares, but where nodes have slots each child that
+  /// can contribute at least a quarter of the time. Adds the way down to `turns`. Empty if no light
+  /// can contribute.
+  struct Surveyed {
+    int light = -1;
+    double probability = 0;
+  };
+  std::optional<Surveyed> survey(const Vec3f& p, const Vec3f& n, double u,
+                                 std::vector<Turn>& turns) const;
   /// True if sample_along() can return a light.
   bool shines_along(const Ray& ray, float t_max) const {
     return !nodes_.empty() && nodes_[0].cluster.importance_along(ray, t_max) > 0.0f;
@@ -103,17 +111,16 @@ class LightTree {
   LightBounds build(uint32_t node, std::vector<Item>& items, size_t begin, size_t end,
                     uint64_t trail, int depth);
   void give_slots();
-  /// Probability of the first child; negative if neither child can contribute. `importance` is that
-  /// of a cluster.
+  /// Probabilities of the first child; `plain` is negative if neither child can contribute.
+  /// `importance` is that of a cluster.
   template <class Importance>
-  double first_probability(const Node& node, const Importance& importance,
-                           const float* shares) const;
+  ChoiceProbability first_probability(const Node& node, const Importance& importance,
+                                      const float* shares) const;
   template <class Importance>
-  std::optional<Choice> sample(const Importance& importance, double u, double probability,
-                               const float* shares) const;
+  std::optional<Choice> sample(const Importance& importance, double u,
+                               const Learned& learned) const;
   template <class Importance>
-  double pmf(const Importance& importance, int light, double probability,
-             const float* shares) const;
+  ChoiceProbability pmf(const Importance& importance, int light, const float* shares) const;
 
   std::vector<Node> nodes_;
   std::vector<Trail> trails_;

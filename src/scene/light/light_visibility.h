@@ -2,6 +2,7 @@
 // samples of direct light. It must not know lights or how samples are made. See light_survey.h.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,7 +14,7 @@ namespace nephroid {
 /// What one sample says about one slot: a light, a group of lights, or a node of a light tree.
 struct SlotSample {
   uint32_t slot = 0;
-  float value = 0;
+  double value = 0;  ///< left out if it is not finite
 };
 
 /// Samples at a point, in any number.
@@ -24,27 +25,41 @@ struct SurveyedPoint {
 
 /// Part of the choices that ignores what was learned, since what a cell has not seen may be there.
 inline constexpr double kUnlearned = 0.1;
-/// [D5] Probability of a thing of `importance`, of which `share` arrives, among things whose sums
-/// are `all` and (importance times share) `all_that_arrives`. `all` is above 0.
-inline double learned_probability(double importance, double share, double all,
-                                  double all_that_arrives) {
-  const double plain = importance / all;
-  if (!(all_that_arrives > 0)) return plain;
-  return kUnlearned * plain + (1 - kUnlearned) * (importance * share / all_that_arrives);
-}
+
+/// Probabilities of one and the same choice.
+struct ChoiceProbability {
+  double plain = 1;    ///< by importance alone
+  double learned = 1;  ///< by importance times what was learned
+  /// [D5] The probability if a part of the choices is plain.
+  double mixed() const { return kUnlearned * plain + (1 - kUnlearned) * learned; }
+  ChoiceProbability& operator*=(const ChoiceProbability& next) {
+    plain *= next.plain;
+    learned *= next.learned;
+    return *this;
+  }
+};
 
 class LightVisibility {
  public:
   /// Nothing is known; empty() is true.
   LightVisibility() = default;
+  /// All samples are of slots below `slots`.
   LightVisibility(std::span<const SurveyedPoint> points, size_t slots);
 
   bool empty() const { return nodes_.empty(); }
-  /// [slot] Mean of the samples in the cell around `p`.
+  /// [slot] Mean of the samples in the cell around `p`, negative if no cell has a sample. Valid
+  /// as long as this object. Not if empty().
   const float* at(const Vec3f& p) const {
+    assert(!empty());
     const Node* node = nodes_.data();
     while (node->axis != kLeaf) node = &nodes_[node->child + (p[node->axis] < node->split ? 0 : 1)];
     return &means_[node->child];
+  }
+  /// Changes the means of each cell by `change(means)`.
+  template <class Change>
+  void for_each_cell(const Change& change) {
+    for (const Node& node : nodes_)
+      if (node.axis == kLeaf) change(&means_[node.child]);
   }
 
  private:

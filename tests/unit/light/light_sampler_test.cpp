@@ -2,100 +2,11 @@
 // light arrives. For no light, a few and very many.
 #include "scene/light/light_sampler.h"
 
-#include "core/warps.h"
 #include "scene/light/light_tree.h"
-#include "unit/light/light_fixture.h"
+#include "unit/light/zoo_of_lights.h"
 
 namespace nephroid::testing_light {
 namespace {
-
-/// A light with bounds and power only.
-class FakeLight final : public Light {
- public:
-  FakeLight(const Vec3f& p, float power, const Vec3f& axis = {0, 0, 1}, float cos_o = -1,
-            bool two_sided = false) {
-    b_.bounds = Bounds3f(p);
-    b_.power = power;
-    b_.axis = axis;
-    b_.cos_theta_o = cos_o;
-    b_.two_sided = two_sided;
-  }
-  std::optional<LightSample> sample_towards(const Vec3f&, const Vec2f&,
-                                            const SampledWavelengths&) const override {
-    return std::nullopt;
-  }
-  float pdf_towards(const Vec3f&, const Vec3f&, const Vec3f&, const Vec3f&) const override {
-    return 0;
-  }
-  std::optional<EmissionSample> sample_emission(const Vec2f&, const Vec2f&,
-                                                const SampledWavelengths&) const override {
-    return std::nullopt;
-  }
-  EmissionDensity emission_pdf(const Vec3f&, const Vec3f&) const override { return {}; }
-  float power() const override { return b_.power; }
-  std::optional<LightBounds> bounds() const override { return b_; }
-
- private:
-  LightBounds b_;
-};
-
-/// `n` triangles, spots and points in a unit cube, and `infinite` infinite lights.
-std::vector<LightPtr> zoo(int n, int infinite) {
-  TestRandom random(21);
-  std::vector<LightPtr> lights;
-  for (int i = 0; i < infinite; ++i) lights.push_back(light_of("LightSource \"infinite\""));
-  for (int i = 0; i < n; ++i) {
-    const Vec3f p(random.next(), random.next(), random.next());
-    const auto near = [&] {
-      return p + (Vec3f(random.next(), random.next(), random.next()) - Vec3f(0.5f)) * 0.2f;
-    };
-    const auto text = [](const Vec3f& v) {
-      return "[" + std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z) +
-             "]";
-    };
-    const std::string scale = " \"float scale\" " + std::to_string(0.1f + random.next());
-    if (i % 3 == 0) {
-      MeshData m;
-      m.positions = {p, near(), near()};
-      m.triangles = {0, 1, 2};
-      lights.push_back(area_light_of(scale + (i % 2 ? "\"bool twosided\" true" : ""),
-                                     std::make_shared<TriangleMesh>(m, false)));
-    } else if (i % 3 == 1) {
-      const char* edge = i % 2 ? " \"float conedeltaangle\" 0" : "";
-      lights.push_back(light_of("LightSource \"spot\" \"point3 from\" " + text(p) +
-                                "\"point3 to\" " + text(near()) + edge + scale));
-    } else {
-      lights.push_back(light_of("LightSource \"point\" \"point3 from\" " + text(p) + scale));
-    }
-  }
-  return lights;
-}
-
-/// Counts of samples against pmf(). Empty samples must be the missing rest.
-void expect_frequencies(const LightSampler& sampler, const std::vector<LightPtr>& lights,
-                        const Vec3f& p, const Vec3f& n, int count) {
-  std::vector<double> observed(lights.size() + 1), expected(lights.size() + 1);
-  double sum = 0;
-  for (size_t i = 0; i < lights.size(); ++i) {
-    const double pmf = sampler.pmf(p, n, static_cast<int>(i));
-    sum += pmf;
-    expected[i] = count * pmf;
-  }
-  EXPECT_LE(sum, 1 + 1e-5);
-  expected.back() = count * std::max(0.0, 1 - sum);
-  TestRandom random(31);
-  for (int i = 0; i < count; ++i) {
-    const auto choice = sampler.sample(p, n, random.next());
-    if (!choice) {
-      ++observed.back();
-      continue;
-    }
-    ++observed[choice->light];
-    ASSERT_EQ(choice->pdf_p, sampler.pmf(p, n, choice->light));
-    ASSERT_GT(choice->pdf_p, 0.0f);
-  }
-  EXPECT_GT(chi_square_test(observed, expected), 1e-4) << lights.size() << " lights";
-}
 
 TEST(LightSampler, FrequenciesAreTheProbabilities) {
   for (const int n : {0, 1, 2, 4, 5, 6, 40, 300})
@@ -106,85 +17,6 @@ TEST(LightSampler, FrequenciesAreTheProbabilities) {
       expect_frequencies(sampler, lights, {0.5f, 0.5f, 0.5f}, normalize(Vec3f(1, 1, -2)), 20000);
       expect_frequencies(sampler, lights, {7, -3, 2}, {0, 0, 0}, 20000);
     }
-}
-
-/// Makes the sampler learn from random points around the zoo, by the light that `arrives(light, p)`
-/// says.
-template <class Arrives>
-void teach(LightSampler& sampler, const Arrives& arrives) {
-  TestRandom random(51);
-  std::vector<SurveyedPoint> points(12000);
-  for (SurveyedPoint& point : points) {
-    point.p = Vec3f(random.next(), random.next(), random.next()) * 3.0f - Vec3f(1);
-    for (int k = 0; k < 8; ++k)
-      sampler.survey(
-          point.p, {0, 0, 1}, random.next(), [&](int light) { return arrives(light, point.p); },
-          point.samples);
-  }
-  sampler.learn(LightVisibility(points, sampler.slot_count()));
-}
-
-TEST(LightSampler, FrequenciesAreTheProbabilitiesThatItHasLearned) {
-  for (const int n : {0, 1, 2, 4, 5, 40, 300})
-    for (const int infinite : {0, 1, 2, 20}) {
-      const auto lights = zoo(n, infinite);
-      LightSampler sampler(lights);
-      if (sampler.slot_count() == 0) continue;
-      teach(sampler, [](int light, const Vec3f& p) { return light % 3 == 0 ? 0.0f : p.x + 2; });
-      expect_frequencies(sampler, lights, {0.4f, 0.5f, -0.3f}, {0, 0, 1}, 20000);
-      expect_frequencies(sampler, lights, {0.5f, 0.5f, 0.5f}, normalize(Vec3f(1, 1, -2)), 20000);
-      expect_frequencies(sampler, lights, {70, -3, 2}, {0, 1, 0}, 20000);
-    }
-}
-
-// Lights of equal power in a ring; a wall hides the half on the other side.
-TEST(LightSampler, LearnsWhichLightsReachAPlace) {
-  for (const int count : {2, 4, 8, 60}) {
-    std::vector<LightPtr> lights;
-    std::vector<Vec3f> places;
-    for (int i = 0; i < count; ++i) {
-      const float turn = 2 * kPi * (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
-      places.emplace_back(2 * std::sin(turn), 2 * std::cos(turn), 1.0f);
-      lights.push_back(std::make_unique<FakeLight>(places.back(), 1.0f));
-    }
-    LightSampler sampler(lights);
-    teach(sampler, [&](int light, const Vec3f& p) {
-      const bool same_side = (places[light].x < 0) == (p.x < 0);
-      return same_side ? 1 / length_squared(p - places[light]) : 0.0f;
-    });
-    double visible = 0, all = 0;
-    for (int i = 0; i < count; ++i) {
-      const float pmf = sampler.pmf({-0.5f, 0, 0}, {0, 0, 1}, i);
-      EXPECT_GT(pmf, 0.0f) << "what was not seen may be there";
-      all += pmf;
-      if (places[i].x < 0) visible += pmf;
-    }
-    EXPECT_NEAR(all, 1, 1e-5);
-    EXPECT_GT(visible, 0.85) << count << " lights";
-    // Nothing was learned for media.
-    double in_fog = 0;
-    for (int i = 0; i < count; ++i)
-      if (places[i].x < 0) in_fog += sampler.pmf({-0.01f, 0, 0}, {0, 0, 0}, i);
-    EXPECT_NEAR(in_fog, 0.5, 0.1) << count << " lights";
-  }
-}
-
-TEST(LightSampler, LearnsHowBrightInfiniteLightsAreInAPlace) {
-  const auto lights = zoo(3, 2);
-  LightSampler sampler(lights);
-  // The second sky is hidden from x < 0.5, and much brighter than all else.
-  teach(sampler,
-        [](int light, const Vec3f& p) { return light == 1 ? (p.x < 0.5f ? 0.0f : 100.0f) : 0.1f; });
-  EXPECT_LT(sampler.pmf({-0.5f, 0, 0}, {0, 0, 1}, 1), 0.1f);
-  EXPECT_GT(sampler.pmf({1.5f, 0, 0}, {0, 0, 1}, 1), 0.9f);
-}
-
-TEST(LightSampler, HasNothingToLearnWithoutAChoice) {
-  EXPECT_EQ(LightSampler(zoo(0, 0)).slot_count(), 0u);
-  EXPECT_EQ(LightSampler(zoo(1, 0)).slot_count(), 0u);
-  EXPECT_EQ(LightSampler(zoo(0, 1)).slot_count(), 0u);
-  EXPECT_GT(LightSampler(zoo(1, 1)).slot_count(), 0u);
-  EXPECT_GT(LightSampler(zoo(5, 0)).slot_count(), 0u);
 }
 
 TEST(LightSampler, ProbabilitiesSumToOneIfAllLightsShineEverywhere) {
