@@ -8,7 +8,7 @@
 
 namespace nephroid {
 
-Scene::Scene() = default;
+Scene::Scene() : light_sampler(std::make_unique<LightSampler>(lights)) {}
 Scene::~Scene() = default;
 
 namespace {
