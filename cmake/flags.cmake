@@ -17,7 +17,10 @@ if(NEPHROID_NATIVE)
 endif()
 if(NEPHROID_SANITIZE)
   # Sanitizers triple the code that the optimiser sees: -O2 -g takes 2.5 times as long to compile.
-  set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -finline-small-functions -g1")
+  set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    string(APPEND CMAKE_CXX_FLAGS_RELWITHDEBINFO " -finline-small-functions")
+  endif()
   target_compile_options(nephroid_flags INTERFACE -fsanitize=${NEPHROID_SANITIZE}
                          -fno-omit-frame-pointer)
   target_link_options(nephroid_flags INTERFACE -fsanitize=${NEPHROID_SANITIZE})

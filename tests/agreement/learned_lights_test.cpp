@@ -44,8 +44,10 @@ TEST_P(LearnedLights, GiveThePictureOfUnlearnedOnes) {
   options.max_depth = 4;
   const auto plain = two_halves(), learned = two_halves();
   learned->light_sampler->learn(survey_lights(*learned));
+  // The caustic of the point lights is out of reach of `path`.
+  const std::string reference = std::string(GetParam()) == "path" ? "path" : "bdpt";
   const SeedValues expected =
-      block_values(*plain, "bdpt", options, kLearnedLightSeeds, 48, 100, kLearnedLightBlocks);
+      block_values(*plain, reference, options, kLearnedLightSeeds, 48, 100, kLearnedLightBlocks);
   const SeedValues found = unbiased_block_values(*learned, GetParam(), options, kLearnedLightSeeds,
                                                  24, 1, kLearnedLightBlocks);
   for (size_t i = 0; i < expected.size(); ++i) {
