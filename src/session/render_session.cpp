@@ -19,12 +19,12 @@
 #include "film/state_file.h"
 #include "scene/scene.h"
 #include "session/checkpoint/film_metadata.h"
+#include "session/learn_lights.h"
 #include "session/quick_look.h"
 #include "session/report/choices_report.h"
 #include "session/report/invalid_samples.h"
 #include "session/report/lamp_report.h"
 #include "session/report/noise.h"
-#include "transport/light_survey.h"
 
 namespace nephroid {
 namespace {
@@ -122,10 +122,13 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   next_checkpoint_seconds_ = options_.checkpoint_interval;
   next_picture_seconds_ = 0;
   RenderResult result;
+  // What an earlier render of the scene has learned must not show.
+  scene_.light_sampler->learn({});
   take_quick_look(signals);
-  scene_.light_sampler->learn(options_.learns_lights ? survey_lights(scene_) : LightVisibility());
   std::optional<StopReason> reason;
-  if (!done_.empty() && (!open_pass_ || !is_wanted(*open_pass_))) {
+  if (options_.learns_lights && !learn_lights(scene_, signals, clock_))
+    reason = StopReason::kSignal;
+  if (!reason && !done_.empty() && (!open_pass_ || !is_wanted(*open_pass_))) {
     // Earlier runs may already have met a stop rule.
     if (options_.noise_target > 0 && error_check_is_due()) renew_error();
     reason = reason_to_stop(signals);

@@ -36,6 +36,7 @@ class SurveyVisitor {
   static void medium_vertex(const Walk&, const MediumVertex&, PathSampler&) {}
 
   void vertex(const Walk& walk, const WalkVertex& v, PathSampler& sampler) {
+    if (found_ >= kMaxPoints) return;
     if ((v.bsdf.finite_classes() & ClassMask::kRough) == ClassMask::kNone) return;
     PathSampler own = sampler.stream(sampler.dimension());
     SurveyedPoint point{v.surface.p, {}};
@@ -99,13 +100,13 @@ void survey_path(const Scene& scene, uint32_t index, std::vector<SurveyedPoint>&
 
 }  // namespace
 
-LightVisibility survey_lights(const Scene& scene) {
+LightVisibility survey_lights(const Scene& scene, PassControl& control) {
   const size_t slots = scene.light_sampler->slot_count();
   if (slots == 0) return {};
   const int64_t pixels = int64_t{scene.film.width} * scene.film.height;
   std::vector<SurveyedPoint> points;
   ordered_reduce<std::vector<SurveyedPoint>>(
-      unwatched, std::min(kMaxPaths, pixels), kPathsOfChunk,
+      control, std::min(kMaxPaths, pixels), kPathsOfChunk,
       [&](std::vector<SurveyedPoint>& found, int64_t begin, int64_t end) {
         for (int64_t i = begin; i < end; ++i) survey_path(scene, static_cast<uint32_t>(i), found);
       },

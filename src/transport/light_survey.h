@@ -3,14 +3,16 @@
 // or estimators.
 #pragma once
 
+#include "core/pass_control.h"
 #include "scene/light/light_visibility.h"
 #include "scene/scene.h"
 
 namespace nephroid {
 
-/// What LightSampler::learn() takes; empty if there is no choice among lights. Takes 0.05 to 0.3 s
-/// of one core. It depends on nothing but the scene, its camera and the size of its whole picture,
-/// so crops, other numbers of threads and resumed renders learn the same.
-LightVisibility survey_lights(const Scene& scene);
+/// What LightSampler::learn() takes; empty if there is no choice among lights. Takes a tenth of a
+/// second on two cores, or more where rays are slow. It depends on nothing but the scene, its
+/// camera and the size of its whole picture, so crops, other numbers of threads and resumed renders
+/// learn the same.
+LightVisibility survey_lights(const Scene& scene, PassControl& control = unwatched);
 
 }  // namespace nephroid

@@ -12,7 +12,7 @@ using namespace testing_support;
 
 constexpr int kLearnedLightSeeds = 16, kLearnedLightBlocks = 3;
 
-/// Six lamps of all kinds and a sky. A wall with a gap hides some of them from each place, and a
+/// Five lamps of all kinds and a sky. A wall with a gap hides some of them from each place, and a
 /// ball of glass throws caustics.
 std::unique_ptr<Scene> two_halves() {
   return scene_from_text(R"(

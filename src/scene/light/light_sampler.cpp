@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/sampler.h"
 #include "scene/light/light_tree.h"
@@ -17,12 +18,11 @@ namespace {
 
 /// Up to this number of lights, importances are compared one by one.
 constexpr int kFew = 4;
-/// Visibility of more infinite lights than this is not learned one by one.
+/// With more infinite lights (and one for all others), groups are equally probable.
 constexpr size_t kMaxLearnedGroups = 16;
-/// Light that arrives from a lamp that shines equally to all sides, over its importance, is 1 / (4
-/// pi). In a node of a tree it can be more, beside one of its lamps; a hundred times that is
-/// enough.
-constexpr double kMostOfSample = 100.0 / (4.0 * kPiDouble);
+/// Light that arrives from an even lamp is 1 / pi of its importance. From a node of the tree it can
+/// be much more, beside one of its lamps: then a single sample would decide for a cell.
+constexpr double kMostOfSample = 25.0 / kPiDouble;
 /// The group of all lights that are not infinite.
 constexpr int kBounded = -1;
 
@@ -100,6 +100,7 @@ struct LightSampler::Impl {
     if (!shares) return plain;
     FewImportances w;
     for (int i = 0; i < few_count; ++i) {
+      if (!(plain.of[i] > 0.0)) continue;
       if (shares[i] < 0.0f) return plain;
       w.sum += w.of[i] = plain.of[i] * shares[i];
     }
@@ -126,16 +127,14 @@ struct LightSampler::Impl {
   /// Replaces what was learned of groups by probabilities: in proportion to their brightness. The
   /// squares of light from an infinite light were averaged, as its samples differ from each other.
   void turn_into_probabilities(float* shares) const {
+    const std::span<float> groups(shares, group_slots());
+    const bool is_known = std::ranges::none_of(groups, [](float share) { return share < 0.0f; });
+    for (size_t i = 0; is_known && i < infinite.size(); ++i) groups[i] = std::sqrt(groups[i]);
     double sum = 0.0;
-    for (size_t i = 0; i < group_slots(); ++i) {
-      if (shares[i] < 0.0f) sum = std::numeric_limits<double>::infinity();  // not known
-      if (i < infinite.size()) shares[i] = std::sqrt(shares[i]);
-      sum += shares[i];
-    }
-    const bool knows = sum > 0.0 && std::isfinite(sum);
-    for (size_t i = 0; i < group_slots(); ++i)
-      shares[i] =
-          static_cast<float>(knows ? shares[i] / sum : 1.0 / static_cast<double>(group_count));
+    for (const float share : groups) sum += share;
+    for (float& share : groups)
+      share = static_cast<float>(is_known && sum > 0.0 ? share / sum
+                                                       : 1.0 / static_cast<double>(group_count));
   }
   ChoiceProbability group_probability(size_t group, const float* shares) const {
     const double plain = 1.0 / static_cast<double>(group_count);
@@ -272,7 +271,7 @@ void LightSampler::survey(const Vec3f& p, const Vec3f& n, float u,
     const int i = std::min(static_cast<int>(group.rest * lights), d.few_count - 1);
     if (w.of[i] > 0.0) {
       const double light = arrives(d.few_lights[i]);
-      samples.push_back({slots_of_groups + i, std::min(light / w.of[i], kMostOfSample)});
+      samples.push_back({slots_of_groups + i, light / w.of[i]});
       found = light * lights;
     }
   }

@@ -8,7 +8,8 @@ namespace nephroid {
 
 namespace {
 
-/// Cells have at least so many points (ADR 43: fewer follow shadows more closely, but are noisier).
+/// Cells with twice as many points are divided (ADR 43: smaller ones follow shadows more closely,
+/// but are noisier).
 constexpr size_t kPointsOfCell = 64;
 /// The mean of the cell around counts like so many samples of a cell's own.
 constexpr double kSamplesOfParent = 20;

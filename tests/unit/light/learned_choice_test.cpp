@@ -113,6 +113,18 @@ TEST(LearnedChoice, DoesNotTakeWhatWasNotSampledForDark) {
         << "light " << i;
 }
 
+// A lamp that shines on no surveyed point says nothing about the others.
+TEST(LearnedChoice, IsNotSpoiltByALampThatShinesNowhere) {
+  std::vector<LightPtr> lights;
+  lights.push_back(std::make_unique<FakeLight>(Vec3f(-2, 0, 1), 1.0f));
+  lights.push_back(std::make_unique<FakeLight>(Vec3f(2, 0, 1), 1.0f));
+  lights.push_back(std::make_unique<FakeLight>(Vec3f(0, 0, -9), 1.0f, Vec3f(0, 0, -1), 0.9999f));
+  LightSampler sampler(lights);
+  ASSERT_EQ(sampler.plain_pmf({0, 0, 0}, {0, 0, 1}, 2), 0.0f);
+  teach(sampler, [](int light, const Vec3f&) { return light == 0 ? 1.0f : 0.0f; });
+  EXPECT_GT(sampler.pmf({0, 0, 0}, {0, 0, 1}, 0), 0.9f);
+}
+
 // The bounds of the lamp are no use, so nothing but its own power chooses it.
 TEST(LearnedChoice, NeverChoosesALampOutsideOfAllGroups) {
   auto lights = zoo(0, 2);
