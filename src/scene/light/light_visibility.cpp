@@ -56,9 +56,10 @@ class LightVisibility::Builder {
       return;
     }
     // In their order, so that sums are the same with every standard library.
-    const auto second = std::ranges::stable_partition(
-        points, [&](uint32_t i) { return points_[i].p[cut.axis] < cut.split; });
-    const auto half = static_cast<size_t>(second.begin() - points.begin());
+    const auto second = std::stable_partition(points.begin(), points.end(), [&](uint32_t i) {
+      return points_[i].p[cut.axis] < cut.split;
+    });
+    const auto half = static_cast<size_t>(second - points.begin());
     const auto child = static_cast<uint32_t>(result_.nodes_.size());
     result_.nodes_.resize(result_.nodes_.size() + 2);
     result_.nodes_[node] = {cut.axis, cut.split, child};
