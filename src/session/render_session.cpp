@@ -122,7 +122,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   next_checkpoint_seconds_ = options_.checkpoint_interval;
   next_picture_seconds_ = 0;
   RenderResult result;
-  // What an earlier render of the scene has learned must not show.
+  // The first preview must not depend on earlier renders of the scene.
   scene_.light_sampler->learn({});
   take_quick_look(signals);
   std::optional<StopReason> reason;

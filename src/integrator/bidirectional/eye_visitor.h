@@ -182,7 +182,7 @@ class EyeVisitor {
   double weight_of_hit(const Walk& walk, int light, const Place& from, const auto& hit) const {
     if (!settings_.technique.weighted || walk.events == 0) return 1;
     const SideEnd& end = sums_.end_to_light();
-    const double direct = choice_in_weights(settings_, walk.previous_p, walk.previous_ns, light) *
+    const double direct = choice_over_real(settings_, walk.previous_p, walk.previous_ns, light) *
                           direct_pdf_w(settings_.scene, walk, hit);
     const LightStart start =
         light_start(settings_, light, from, last_, -walk.ray.d, direct, end.has_cuts_before());

@@ -100,9 +100,7 @@ class LightVisitor : public LightWalkVisitor {
   PartialMisWeights first_sums(const Walk& walk, const Vec3f& ns) const {
     const Scene& scene = settings_.scene;
     const Light& light = *scene.lights[emission_.light];
-    const double chosen = settings_.merges_direct_light()
-                              ? scene.light_sampler->plain_pmf(place_.p, ns, emission_.light)
-                              : scene.light_sampler->pmf(place_.p, ns, emission_.light);
+    const double chosen = choice_in_weights(settings_, place_.p, ns, emission_.light);
     const Vec3f& w = walk.ray.d;
     const double direct =
         light.is_delta() ? chosen : chosen * light.pdf_towards(place_.p, -w, start_.p, start_.ng);

@@ -65,15 +65,20 @@ inline double cut_at_camera(const PairSettings& settings, const CameraPath& came
   return density > 0 ? heuristic(settings.light_paths / density) : 0;
 }
 
-/// The probability of choosing a light at `p` as weights know it, over the real one. It differs
-/// where photons that come straight from a light are merged: their weights take it at the photon,
-/// those of next-event estimation at the vertex beside it, so it must have no jumps.
+/// The probability of choosing a light at `p` that weights use. It is not the real one where
+/// photons that come straight from a light are merged: their weights take it at the photon, those
+/// of next-event estimation at the vertex beside it, so it must have no jumps.
 inline double choice_in_weights(const PairSettings& settings, const Vec3f& p, const Vec3f& ns,
                                 int light) {
-  if (!settings.merges_direct_light()) return 1;
   const LightSampler& lights = *settings.scene.light_sampler;
-  const double real = lights.pmf(p, ns, light);
-  return real > 0 ? lights.plain_pmf(p, ns, light) / real : 1;
+  return settings.merges_direct_light() ? lights.plain_pmf(p, ns, light) : lights.pmf(p, ns, light);
+}
+/// That probability over the real one.
+inline double choice_over_real(const PairSettings& settings, const Vec3f& p, const Vec3f& ns,
+                               int light) {
+  if (!settings.merges_direct_light()) return 1;
+  const double real = settings.scene.light_sampler->pmf(p, ns, light);
+  return real > 0 ? choice_in_weights(settings, p, ns, light) / real : 1;
 }
 
 /// Densities with which light number `light` starts a path to the vertex `x` in unit direction `w`.
@@ -104,9 +109,8 @@ inline LightStart light_start(const PairSettings& settings, int light, const Pla
 /// The same for light found by next-event estimation at the vertex `x`, with the receiver `at`.
 inline LightStart light_start(const PairSettings& settings, const DirectSample& d,
                               const Receiver& at, const Place& x, bool asks_onward) {
-  const double direct =
-      choice_in_weights(settings, at.p, at.ns, d.light) *
-      (d.delta ? settings.scene.light_sampler->pmf(at.p, at.ns, d.light) : d.pdf_w);
+  const double direct = d.delta ? choice_in_weights(settings, at.p, at.ns, d.light)
+                                : choice_over_real(settings, at.p, at.ns, d.light) * d.pdf_w;
   return light_start(settings, d.light, {d.p, d.ng}, x, -d.wi_world, direct, asks_onward);
 }
 

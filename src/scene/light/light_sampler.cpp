@@ -112,7 +112,7 @@ struct LightSampler::Impl {
     return w;
   }
 
-  /// What was learned at a point; null if nothing was.
+  /// The shares of the cell around a point; null before learn(), and in media.
   const float* shares_at(const Vec3f& p, const Vec3f& n) const {
     const bool has_normal = n.x != 0.0f || n.y != 0.0f || n.z != 0.0f;
     return has_normal && !visibility.empty() ? visibility.at(p) : nullptr;

@@ -58,7 +58,7 @@ class LightTree {
   struct Turn {
     uint32_t slot = 0;
     float importance = 0;
-    double probability = 0;  ///< of coming here
+    double probability = 0;  ///< that a sample reaches this node
   };
 
   /// `light_count` is one more than the largest Item::light.
@@ -72,13 +72,13 @@ class LightTree {
   ChoiceProbability pmf(const Vec3f& p, const Vec3f& n, int light, const float* shares) const;
   /// Number of nodes whose visibility can be learned: those of most power.
   uint32_t slot_count() const { return slot_count_; }
-  /// Samples a light to learn from, as without shares, but where nodes have slots each child that
-  /// can contribute at least a quarter of the time. Adds the way down to `turns`. Empty if no light
-  /// can contribute.
   struct Surveyed {
     int light = -1;
     double probability = 0;
   };
+  /// Samples a light to learn from, without shares. Where nodes have slots, each child that can
+  /// contribute is taken at least a quarter of the time. Adds the way down to `turns`. Empty if no
+  /// light can contribute.
   std::optional<Surveyed> survey(const Vec3f& p, const Vec3f& n, double u,
                                  std::vector<Turn>& turns) const;
   /// True if sample_along() can return a light.
