@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -15,6 +16,11 @@ namespace nephroid {
 /// before it is written to is first a shared page of zeros, and replacing that stops all threads.
 void prefer_huge_pages(void* memory, size_t bytes);
 
+enum class Pages : uint8_t {
+  kHuge,  ///< quick where most of an array is written to
+  kSmall  ///< little memory where only few items are
+};
+
 /// A fixed number of items, initially all bits zero. The system backs pages when they are first
 /// written to, so zeros cost neither memory nor time.
 template <class T>
@@ -25,10 +31,10 @@ class ZeroedArray {
  public:
   ZeroedArray() = default;
   /// Throws std::bad_alloc.
-  explicit ZeroedArray(size_t size)
+  explicit ZeroedArray(size_t size, Pages pages = Pages::kHuge)
       : items_(static_cast<T*>(std::calloc(size, sizeof(T)))), size_(size) {
     if (size > 0 && !items_) throw std::bad_alloc();
-    prefer_huge_pages(items_.get(), size * sizeof(T));
+    if (pages == Pages::kHuge) prefer_huge_pages(items_.get(), size * sizeof(T));
   }
 
   ZeroedArray(ZeroedArray&&) noexcept = default;

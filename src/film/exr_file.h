@@ -25,7 +25,7 @@ void write_exr(const std::string& path, const PictureHead& head,
 void write_exr(const std::string& path, const Picture& picture);
 
 /// Memory limit of write_exr in bytes; exceeded only if a few blocks of rows need more.
-inline constexpr uint64_t kMaxEncoderBytes = uint64_t{64} << 20;
+inline constexpr uint64_t kMaxEncoderBytes = uint64_t{256} << 20;
 /// Upper bound of write_exr's memory in bytes, for a picture of this width and number of channels.
 uint64_t encoder_bytes(int width, size_t channels);
 

@@ -34,7 +34,7 @@ Film::Film(const FilmSettings& settings, FilmLayout layout)
   for (size_t r = 0; r < this->layout().routes.size(); ++r) sums_.emplace_back(pixels);
   for (const std::vector<size_t>& layers : layers_of_group_)
     for (size_t i = 0; i < layers.size(); ++i) layers_.emplace_back(pixels);
-  for (int g = 0; g < groups; ++g) squares_.emplace_back(pixels);
+  for (int g = 0; g < groups; ++g) squares_.emplace_back(pixels, PixelSums::kSquareBits);
   estimates_.assign(groups + 1, 0);
   open_.assign(groups + 1, OpenPass{std::vector<uint32_t>(slices_.count(), 0)});
   for (int g = 0; g < groups; ++g) {
@@ -73,10 +73,10 @@ void Film::list_buffers() {
 }
 
 size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
-  const size_t sums = layout.routes.size() + layout.group_count();
+  const size_t sums =
+      layout.routes.size() + layout.layers_of_groups().size() + layout.group_count();
   const size_t merging = std::count(layout.merges.begin(), layout.merges.end(), true);
-  return sums * sizeof(RgbSum) + layout.layers_of_groups().size() * LayerSums::kBytesPerPixel +
-         merging * sizeof(Bias) + sizeof(Features) +
+  return sums * PixelSums::kBytesPerPixel + merging * sizeof(Bias) + sizeof(Features) +
          (gbuffer ? sizeof(SurfaceSums) + sizeof(uint64_t) : 0) + sizeof(uint64_t);  // depths
 }
 
@@ -84,8 +84,7 @@ bool Film::add_parts(int group, size_t pixel, std::span<const Rgb> values) {
   const std::vector<int>& parts = parts_of(group);
   bool fits = true;
   for (size_t i = 0; i < parts.size(); ++i) {
-    RgbSum& sum = sums_[route_of(parts[i])][pixel];
-    for (int c = 0; c < 3; ++c) fits &= sum.rgb[c].add(values[i][c]);
+    fits &= sums_[route_of(parts[i])].add(pixel, values[i]);
     for (const size_t layer : layers_of_part_[parts[i]])
       fits &= layers_[layer].add(pixel, values[i]);
   }
@@ -93,14 +92,14 @@ bool Film::add_parts(int group, size_t pixel, std::span<const Rgb> values) {
 }
 
 bool Film::add_square(int group, size_t pixel, std::span<const Rgb> values) {
-  RgbSum& square = squares_[group][pixel];
+  RgbSum square;
   bool fits = true;
   for (int c = 0; c < 3; ++c) {
     double total = 0;
     for (const Rgb& value : values) total += double{value[c]};
     fits &= square.rgb[c].add(total * total);
   }
-  return fits;
+  return squares_[group].add(pixel, square) && fits;
 }
 
 void Film::add(int group, int x, int y, std::span<const Rgb> values) {
@@ -120,9 +119,9 @@ void Film::replace(int group, int x, int y, std::span<const Rgb> values) {
   assert(values.size() == parts_of(group).size());
   const size_t pixel = index(x, y);
   if (is_bad(group, x, y, values)) return;
-  for (const size_t route : routes_of_group_[group]) sums_[route][pixel] = {};
+  for (const size_t route : routes_of_group_[group]) sums_[route].clear(pixel);
   for (const size_t layer : layers_of_group_[group]) layers_[layer].clear(pixel);
-  squares_[group][pixel] = {};
+  squares_[group].clear(pixel);
   bool fits = add_parts(group, pixel, values);
   fits &= add_square(group, pixel, values);
   if (!fits) count_saturated(1);
@@ -150,7 +149,7 @@ void Film::release(int group, size_t pixel, std::span<const RgbSum> held) {
   const std::vector<int>& parts = parts_of(group);
   bool fits = true;
   for (size_t i = 0; i < parts.size(); ++i) {
-    fits &= sums_[route_of(parts[i])][pixel].add(held[i]);
+    fits &= sums_[route_of(parts[i])].add(pixel, held[i]);
     for (const size_t layer : layers_of_part_[parts[i]]) fits &= layers_[layer].add(pixel, held[i]);
   }
   if (!fits) count_saturated(1);
@@ -267,7 +266,7 @@ Rgb Film::mean_of(std::span<const Term> terms, size_t pixel, const SumOf& sum_of
 }
 
 Rgb Film::mean_of_routes(std::span<const Term> terms, size_t pixel) const {
-  return mean_of(terms, pixel, [this](size_t r, size_t p) { return sums_[r][p]; });
+  return mean_of(terms, pixel, [this](size_t r, size_t p) { return sums_[r].sum(p); });
 }
 
 Rgb Film::route_value(int route, int x, int y) const {
@@ -303,12 +302,10 @@ std::array<double, 3> Film::error_squared(size_t group, size_t pixel) const {
   std::array<double, 3> squared{};
   const uint64_t count = count_of(group, pixel);
   if (count < 2) return squared;
-  const RgbSum held = outliers_ ? outliers_->held(static_cast<int>(group), pixel) : RgbSum();
-  for (size_t c = 0; c < 3; ++c) {
-    FixedSum sum = held.rgb[c];
-    for (const size_t route : routes_of_group_[group]) sum.add(sums_[route][pixel].rgb[c]);
-    squared[c] = variance_of_mean(sum, squares_[group][pixel].rgb[c], count);
-  }
+  RgbSum sum = outliers_ ? outliers_->held(static_cast<int>(group), pixel) : RgbSum();
+  for (const size_t route : routes_of_group_[group]) sum.add(sums_[route].sum(pixel));
+  const RgbSum square = squares_[group].sum(pixel);
+  for (size_t c = 0; c < 3; ++c) squared[c] = variance_of_mean(sum.rgb[c], square.rgb[c], count);
   return squared;
 }
 

@@ -15,9 +15,9 @@
 #include "core/zeroed_array.h"
 #include "film/film_format.h"
 #include "film/fixed_sum.h"
-#include "film/layer_sums.h"
 #include "film/outlier_rejection.h"
 #include "film/pixel_slices.h"
+#include "film/pixel_sums.h"
 #include "film/render_state.h"
 
 namespace nephroid {
@@ -40,8 +40,8 @@ struct SurfaceSample {
 class Film {
  public:
   Film(const FilmSettings& settings, FilmLayout layout);
-  /// Memory for each pixel of the crop, with or without geometric layers. Carries of AOVs, which
-  /// few pixels need (layer_sums.h), are not counted.
+  /// Memory for each pixel of the crop, with or without geometric layers. Carries of sums, which
+  /// few pixels need (pixel_sums.h), are not counted.
   static size_t bytes_per_pixel(const FilmLayout& layout, bool gbuffer);
 
   const FilmFormat& format() const { return format_; }
@@ -121,8 +121,8 @@ class Film {
   /// Adds a sample that hit something to the geometric layers, if the film has them.
   void add_surface(int x, int y, const SurfaceSample& sample);
 
-  /// Means of a route, of an AOV, and of all routes together, from exact sums and rounded once. An
-  /// AOV has estimates rounded to steps of 2^-44. If a group has not reached the pixel in its first
+  /// Means of a route, of an AOV, and of all routes together, from sums of estimates
+  /// rounded to steps of 2^-44, and rounded once. If a group has not reached the pixel in its first
   /// pass, the nearest pixel of a wider lattice stands in.
   Rgb route_value(int route, int x, int y) const;
   Rgb aov_value(int aov, int x, int y) const;
@@ -222,10 +222,10 @@ class Film {
   std::vector<std::vector<Term>> layers_of_aov_;     ///< [AOV]
   std::vector<std::vector<size_t>> layers_of_part_;  ///< [part]: in layers_
   std::vector<std::vector<size_t>> routes_of_group_, layers_of_group_;
-  std::vector<ZeroedArray<RgbSum>> sums_;     ///< [route][pixel]
-  std::vector<LayerSums> layers_;             ///< [layer of a group][pixel]
-  std::vector<ZeroedArray<RgbSum>> squares_;  ///< [group][pixel]: squares of estimates' totals
-  std::vector<uint64_t> estimates_;           ///< [group], features last
+  std::vector<PixelSums> sums_;      ///< [route]
+  std::vector<PixelSums> layers_;    ///< [layer of a group]
+  std::vector<PixelSums> squares_;   ///< [group]: squares of estimates' totals
+  std::vector<uint64_t> estimates_;  ///< [group], features last
   /// Progress of one group in an unfinished pass.
   struct OpenPass {
     std::vector<uint32_t> done;  ///< [slice] 0 or 1

@@ -17,10 +17,9 @@ bool Film::has_open_pass() const {
       open_, [](const OpenPass& open) { return open.slices > 0 || open.is_whole != 0; });
 }
 bool Film::has_light() const {
-  for (const ZeroedArray<RgbSum>& part : sums_)
-    for (const RgbSum& sum : part)
-      for (const FixedSum& component : sum.rgb)
-        if (component.bits != 0) return true;
+  for (const PixelSums& sums : sums_)
+    for (size_t i = 0; i < depths_.size(); ++i)
+      if (!sums.is_zero(i)) return true;
   return false;
 }
 bool Film::can_be_shown() const {

@@ -10,11 +10,19 @@ namespace nephroid {
 RenderState Film::state() {
   RenderState state;
   const auto numbered = [](const char* name, size_t i) { return name + std::to_string(i); };
-  for (size_t i = 0; i < sums_.size(); ++i) state.add(numbered("film.sum.", i), sums_[i].items());
-  for (size_t i = 0; i < layers_.size(); ++i)
-    state.add(numbered("film.layer.", i), layers_[i].words());
-  for (size_t g = 0; g < squares_.size(); ++g)
-    state.add(numbered("film.square.", g), squares_[g].items());
+  const auto add_sums = [&](const std::string& kind, std::vector<PixelSums>& all) {
+    for (size_t i = 0; i < all.size(); ++i) {
+      PixelSums& sums = all[i];
+      state.add("film." + kind + "." + std::to_string(i), sums.words());
+      state.streams.push_back(
+          {"film.carries." + kind + "." + std::to_string(i), sums.most_carry_words(),
+           [&sums] { return sums.save_carries(); },
+           [&sums](std::span<const uint32_t> words) { sums.load_carries(words); }});
+    }
+  };
+  add_sums("sum", sums_);
+  add_sums("layer", layers_);
+  add_sums("square", squares_);
   for (size_t g = 0; g < biases_.size(); ++g)
     if (!biases_[g].empty()) state.add(numbered("film.bias.", g), biases_[g].items());
   state.add("film.features", features_.items());
@@ -32,11 +40,6 @@ RenderState Film::state() {
     state.add(numbered("film.open.count.", g), std::span(&open_[g].slices, 1));
     state.add(numbered("film.open.estimates.", g), std::span(&open_[g].estimates, 1));
   }
-  for (size_t i = 0; i < layers_.size(); ++i)
-    state.streams.push_back(
-        {numbered("film.carries.", i), layers_[i].most_carry_words(),
-         [this, i] { return layers_[i].save_carries(); },
-         [this, i](std::span<const uint32_t> words) { layers_[i].load_carries(words); }});
   if (outliers_)
     state.streams.push_back({"film.outliers", outliers_->most_words(),
                              [this] { return outliers_->save(); },
@@ -51,9 +54,9 @@ void Film::add(const Film& other) {
   parallel_chunks(depths_.size(), 1 << 14, [&](int64_t, int64_t b, int64_t e) {
     for (int64_t i = b; i < e; ++i) {
       bool fits = true;
-      for (size_t p = 0; p < sums_.size(); ++p) fits &= sums_[p][i].add(other.sums_[p][i]);
+      for (size_t p = 0; p < sums_.size(); ++p) fits &= sums_[p].add(i, other.sums_[p]);
       for (size_t l = 0; l < layers_.size(); ++l) fits &= layers_[l].add(i, other.layers_[l]);
-      for (size_t g = 0; g < squares_.size(); ++g) fits &= squares_[g][i].add(other.squares_[g][i]);
+      for (size_t g = 0; g < squares_.size(); ++g) fits &= squares_[g].add(i, other.squares_[g]);
       for (size_t g = 0; g < biases_.size(); ++g) {
         if (biases_[g].empty()) continue;
         fits &= biases_[g][i].sum.add(other.biases_[g][i].sum);

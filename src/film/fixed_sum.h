@@ -9,6 +9,7 @@ namespace nephroid {
 /// Signed 128-bit fixed point with 64 fractional bits; saturates instead of wrapping.
 struct FixedSum {
   __extension__ using Bits = __int128;
+  static constexpr int kFractionalBits = 64;
   Bits bits = 0;
   /// Adds x, rounded to the nearest step. False if x is not finite (the sum is unchanged) or the
   /// sum saturated (it is at the limit).

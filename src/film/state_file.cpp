@@ -21,7 +21,7 @@
 namespace nephroid {
 namespace {
 
-constexpr std::array<char, 8> kBegin = {'N', 'E', 'P', 'H', 'S', 'T', 'A', 3};
+constexpr std::array<char, 8> kBegin = {'N', 'E', 'P', 'H', 'S', 'T', 'A', 4};
 
 /// The last bytes of a file.
 struct Footer {

@@ -107,8 +107,8 @@ TEST(Film, EqualEstimatesHaveNoErrorToSpeakOf) {
   Film film(small_settings(), FilmLayout::of_routes({"all"}));
   for (int i = 0; i < 100; ++i) add_one(film, 0, 2, 1, {0.1f, 1e6f, 3});
   film.add_estimates(0, 100);
-  // The remainder is rounding of the mean square in double: sqrt(2^-52 / 99) of the value.
-  EXPECT_LE(film.standard_error(2, 1).r, 0.1f * 2e-9f);
+  // Squares are rounded to steps of 2^-48, and their mean in double: sqrt(2^-52 / 99) of the value.
+  EXPECT_LE(film.standard_error(2, 1).r, std::sqrt(0x1p-49f / 99) + 0.1f * 2e-9f);
   EXPECT_LE(film.standard_error(2, 1).g, 1e6f * 2e-9f);
 }
 

@@ -266,10 +266,10 @@ TEST(SplatBuffer, BadSplatsAreCountedAndLeftOut) {
       film_of({splat_at(3.5f, 5.5f, {1, 1, 1}), splat_at(3.5f, 5.5f, {1, nan, 1}),
                splat_at(nan, 5.5f, {1, 1, 1}), splat_at(3.5f, 5.5f, {kInfinity, 0, 0}),
                splat_at(4.5f, 5.5f, {1e20f, 0, 0})},
-              *box, {}, 1e-10);
+              *box, {}, 0x1p-34);
   EXPECT_EQ(film.bad_estimates(0).count, 3u);
   EXPECT_EQ(film.saturated_values(), 1u);
-  EXPECT_FLOAT_EQ(film.value(3, 5).g, 1e-10f);
+  EXPECT_FLOAT_EQ(film.value(3, 5).g, 0x1p-34f);
 }
 
 }  // namespace

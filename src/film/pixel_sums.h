@@ -1,6 +1,6 @@
-// Sums of colours for the layers beside the routes, of which a picture may have dozens. A component
-// has 64 bits, and a carry where a sum needs more: few pixels do. Exact in any order
-// (docs/adr/0039-layers-have-compact-sums.md). It must not know films.
+// A sum of colours for each pixel: what the film keeps for a route, an AOV and the squares of
+// estimates. A component has 64 bits, and a carry where a sum needs more: few pixels do. Exact in
+// any order (docs/adr/0044-sums-of-pixels-have-64-bits-and-a-carry.md). It must not know films.
 #pragma once
 
 #include <array>
@@ -17,29 +17,35 @@
 
 namespace nephroid {
 
-/// A colour sum for each pixel: fixed point with steps of 2^-44, saturating at 2^50. Different
-/// threads may use different pixels.
-class LayerSums {
+/// Sums in fixed point that saturate at 2^62. Different threads may use different pixels.
+class PixelSums {
  public:
   /// Low 64 bits of the components, as a signed number.
   using Words = std::array<int64_t, 3>;
   static constexpr size_t kBytesPerPixel = sizeof(Words);  ///< without carries
+  /// Fractional bits for colours. A float from 2^-21 on is a multiple of such a step, and sums up
+  /// to 2^19 have no carry.
+  static constexpr int kColorBits = 44;
+  /// Fractional bits for squares of colours, which are smaller where colours are dim. Sums up to
+  /// 2^15 have no carry.
+  static constexpr int kSquareBits = 48;
 
-  explicit LayerSums(size_t pixels);
-  LayerSums(const LayerSums& other);
-  LayerSums(LayerSums&&) noexcept = default;
-  LayerSums& operator=(const LayerSums& other) { return *this = LayerSums(other); }
-  LayerSums& operator=(LayerSums&&) noexcept = default;
+  explicit PixelSums(size_t pixels, int fractional_bits = kColorBits);
+  PixelSums(const PixelSums& other);
+  PixelSums(PixelSums&&) noexcept = default;
+  PixelSums& operator=(const PixelSums& other) { return *this = PixelSums(other); }
+  PixelSums& operator=(PixelSums&&) noexcept = default;
 
   /// Add a colour, rounded to the nearest step. False if a component is not finite (its sum is
   /// unchanged) or saturated.
   bool add(size_t pixel, const Rgb& value);
   bool add(size_t pixel, const RgbSum& value);
-  /// Adds the sum of another layer's pixel. False if a component saturated.
-  bool add(size_t pixel, const LayerSums& other);
+  /// Adds the sum of a pixel of `other`, which has the same steps. False if a component saturated.
+  bool add(size_t pixel, const PixelSums& other);
   void clear(size_t pixel);
-  /// The exact sum. It is in the range of RgbSum.
+  /// The exact sum.
   RgbSum sum(size_t pixel) const;
+  bool is_zero(size_t pixel) const;
 
   /// The words, to be saved and loaded.
   std::span<Words> words() { return words_.items(); }
@@ -51,8 +57,9 @@ class LayerSums {
 
  private:
   using Bits = FixedSum::Bits;
-  using PixelCarries = std::array<int32_t, 3>;
-  static constexpr size_t kWordsPerCarry = 4;  ///< pixel, and its three carries
+  using PixelCarries = std::array<int64_t, 3>;
+  /// Words of a saved carry: the pixel, and two for each component.
+  static constexpr size_t kWordsPerCarry = 7;
   /// An array that is made when a sum first needs it.
   struct Carries {
     std::once_flag once;
@@ -60,13 +67,18 @@ class LayerSums {
     ZeroedArray<PixelCarries> of_pixels;
   };
 
+  /// Bits of a FixedSum below a step.
+  int dropped_bits() const { return FixedSum::kFractionalBits - fractional_bits_; }
+  /// Steps of a FixedSum, to nearest, ties away from zero: x and -x cancel.
+  Bits rounded(Bits sum) const;
   /// A component's sum in steps.
   Bits steps(size_t pixel, size_t c) const;
   void set_steps(size_t pixel, size_t c, Bits steps);
-  bool add_steps(size_t pixel, size_t c, Bits steps);
+  bool add_steps(size_t pixel, size_t c, Bits added);
   bool have_carries() const { return carries_->exist.load(std::memory_order_acquire); }
   ZeroedArray<PixelCarries>& made_carries();
 
+  int fractional_bits_;
   ZeroedArray<Words> words_;
   std::unique_ptr<Carries> carries_;
 };

@@ -1,5 +1,5 @@
 // Compact sums: exact in any order, rounded to steps of 2^-44, with carries where they are needed.
-#include "film/layer_sums.h"
+#include "film/pixel_sums.h"
 
 #include <gtest/gtest.h>
 
@@ -15,12 +15,12 @@
 namespace nephroid {
 namespace {
 
-constexpr double kLayerStep = 0x1p-44;
+constexpr double kStep = 0x1p-44;
 
-double red(const LayerSums& sums, size_t pixel) {
+double red(const PixelSums& sums, size_t pixel) {
   return sums.sum(pixel).rgb[0].value();
 }
-bool same(const LayerSums& a, const LayerSums& b, size_t pixel) {
+bool same(const PixelSums& a, const PixelSums& b, size_t pixel) {
   for (int c = 0; c < 3; ++c)
     if (a.sum(pixel).rgb[c].bits != b.sum(pixel).rgb[c].bits) return false;
   return true;
@@ -39,27 +39,27 @@ std::vector<Rgb> colors(size_t count) {
   return colors;
 }
 
-TEST(LayerSums, AddsInSteps) {
-  LayerSums sums(2);
+TEST(PixelSums, AddsInSteps) {
+  PixelSums sums(2);
   EXPECT_TRUE(sums.add(1, Rgb{1, 0.25f, -3}));
-  EXPECT_TRUE(sums.add(1, Rgb{static_cast<float>(kLayerStep), 0, 0}));
-  EXPECT_EQ(red(sums, 1), 1 + kLayerStep);
+  EXPECT_TRUE(sums.add(1, Rgb{static_cast<float>(kStep), 0, 0}));
+  EXPECT_EQ(red(sums, 1), 1 + kStep);
   EXPECT_EQ(sums.sum(1).rgb[1].value(), 0.25);
   EXPECT_EQ(sums.sum(1).rgb[2].value(), -3);
   EXPECT_EQ(red(sums, 0), 0);
   // Half a step counts as one, less as none; x and -x cancel.
   for (const float value : {0.5f, 0.49f, -0.5f, -0.49f})
-    sums.add(0, Rgb{value * static_cast<float>(kLayerStep), value, 0});
+    sums.add(0, Rgb{value * static_cast<float>(kStep), value, 0});
   EXPECT_EQ(red(sums, 0), 0);
-  sums.add(0, Rgb{0.5f * static_cast<float>(kLayerStep), 0, 0});
-  EXPECT_EQ(red(sums, 0), kLayerStep);
+  sums.add(0, Rgb{0.5f * static_cast<float>(kStep), 0, 0});
+  EXPECT_EQ(red(sums, 0), kStep);
   sums.clear(1);
   EXPECT_EQ(red(sums, 1), 0);
 }
 
-TEST(LayerSums, AnyOrderHasTheSameBits) {
+TEST(PixelSums, AnyOrderHasTheSameBits) {
   std::vector<Rgb> values = colors(4000);
-  LayerSums forward(1), backward(1), halves(1), other_half(1);
+  PixelSums forward(1), backward(1), halves(1), other_half(1);
   for (const Rgb& value : values) forward.add(0, value);
   std::reverse(values.begin(), values.end());
   for (const Rgb& value : values) backward.add(0, value);
@@ -71,9 +71,9 @@ TEST(LayerSums, AnyOrderHasTheSameBits) {
   EXPECT_FALSE(forward.save_carries().empty());
 }
 
-TEST(LayerSums, IsTheSumOfTheFilmUpToSteps) {
+TEST(PixelSums, IsTheSumOfTheFilmUpToSteps) {
   const std::vector<Rgb> values = colors(1000);
-  LayerSums sums(1);
+  PixelSums sums(1);
   RgbSum exact;
   for (const Rgb& value : values) {
     sums.add(0, value);
@@ -81,59 +81,77 @@ TEST(LayerSums, IsTheSumOfTheFilmUpToSteps) {
   }
   for (int c = 0; c < 3; ++c)
     EXPECT_NEAR(sums.sum(0).rgb[c].value(), exact.rgb[c].value(),
-                500 * kLayerStep + 1e-15 * std::abs(exact.rgb[c].value()));
+                500 * kStep + 1e-15 * std::abs(exact.rgb[c].value()));
 }
 
-TEST(LayerSums, CarriesAreThereWhereTheyAreNeeded) {
-  LayerSums sums(3);
+TEST(PixelSums, CarriesAreThereWhereTheyAreNeeded) {
+  PixelSums sums(3);
   for (int i = 0; i < 1000; ++i) sums.add(1, Rgb{-500, 500, 0.1f});
   EXPECT_TRUE(sums.save_carries().empty());
   // 64 bits hold 2^19.
   for (int i = 0; i < 1000; ++i) sums.add(1, Rgb{-500, 500, 0});
   EXPECT_EQ(red(sums, 1), -1e6);
   EXPECT_EQ(sums.sum(1).rgb[1].value(), 1e6);
-  EXPECT_EQ(sums.save_carries().size(), 4u);
-  const LayerSums copy = sums;
+  EXPECT_EQ(sums.save_carries().size(), 7u);
+  const PixelSums copy = sums;
   EXPECT_TRUE(same(copy, sums, 1));
   sums.add(1, Rgb{1e6f, 0, 0});
   EXPECT_EQ(red(sums, 1), 0);
   EXPECT_EQ(red(copy, 1), -1e6);
 }
 
-TEST(LayerSums, SaturatesAndSaysSo) {
-  LayerSums sums(1);
-  EXPECT_TRUE(sums.add(0, Rgb{0x1p49f, 0, 0}));
-  EXPECT_FALSE(sums.add(0, Rgb{0x1p50f, 1, 0}));
-  EXPECT_EQ(red(sums, 0), 0x1p50);
+TEST(PixelSums, SaturatesAndSaysSo) {
+  PixelSums sums(1);
+  EXPECT_TRUE(sums.add(0, Rgb{0x1p61f, 0, 0}));
+  EXPECT_FALSE(sums.add(0, Rgb{0x1p62f, 1, 0}));
+  EXPECT_EQ(red(sums, 0), 0x1p62);
   EXPECT_EQ(sums.sum(0).rgb[1].value(), 1);
   EXPECT_FALSE(sums.add(0, Rgb{0, -1e30f, 0}));
-  EXPECT_EQ(sums.sum(0).rgb[1].value(), -0x1p50);
+  EXPECT_EQ(sums.sum(0).rgb[1].value(), -0x1p62);
   EXPECT_FALSE(sums.add(0, Rgb{0, 0, std::numeric_limits<float>::quiet_NaN()}));
   EXPECT_EQ(sums.sum(0).rgb[2].value(), 0);
 }
 
-TEST(LayerSums, WordsAndCarriesAreAllThereIs) {
-  LayerSums sums(4), loaded(4);
+TEST(PixelSums, SquaresHaveFinerSteps) {
+  PixelSums colors(1), squares(1, PixelSums::kSquareBits);
+  const Rgb dim{0x1p-48f, 0x1p-47f, 0x1p18f};
+  for (PixelSums* sums : {&colors, &squares}) EXPECT_TRUE(sums->add(0, dim));
+  EXPECT_EQ(colors.sum(0).rgb[0].value(), 0);
+  EXPECT_EQ(squares.sum(0).rgb[0].value(), 0x1p-48);
+  EXPECT_EQ(squares.sum(0).rgb[1].value(), 0x1p-47);
+  EXPECT_EQ(squares.sum(0).rgb[2].value(), 0x1p18);
+  EXPECT_TRUE(colors.save_carries().empty());
+  EXPECT_FALSE(squares.save_carries().empty());
+  EXPECT_FALSE(squares.add(0, Rgb{0, 0, -0x1p100f}));
+  EXPECT_EQ(squares.sum(0).rgb[2].value(), -0x1p62);
+  EXPECT_FALSE(squares.is_zero(0));
+  squares.clear(0);
+  EXPECT_TRUE(squares.is_zero(0));
+}
+
+TEST(PixelSums, WordsAndCarriesAreAllThereIs) {
+  PixelSums sums(4), loaded(4);
   for (size_t i = 0; i < 4; ++i)
     for (const Rgb& value : colors(50 * i)) sums.add(i, value);
   std::ranges::copy(sums.words(), loaded.words().begin());
   loaded.load_carries(sums.save_carries());
   for (size_t i = 0; i < 4; ++i) EXPECT_TRUE(same(sums, loaded, i)) << i;
   EXPECT_LE(sums.save_carries().size(), sums.most_carry_words());
-  EXPECT_THROW(loaded.load_carries(std::vector<uint32_t>{4, 0, 0, 1}), IoError);
+  EXPECT_THROW(loaded.load_carries(std::vector<uint32_t>{4, 0, 0, 0, 0, 0, 1}), IoError);
   EXPECT_THROW(loaded.load_carries(std::vector<uint32_t>{1, 0, 0}), IoError);
+  EXPECT_THROW(loaded.load_carries(std::vector<uint32_t>{1, 0, 0, 0, 1u << 31, 0, 0}), IoError);
 }
 
-TEST(LayerSums, ThreadsMayUseDifferentPixels) {
+TEST(PixelSums, ThreadsMayUseDifferentPixels) {
   constexpr size_t kPixels = 1000;
-  LayerSums sums(kPixels);
+  PixelSums sums(kPixels);
   const std::vector<Rgb> values = colors(kPixels);
   parallel_chunks(kPixels, 10, [&](int64_t, int64_t begin, int64_t end) {
     for (auto i = static_cast<size_t>(begin); i < static_cast<size_t>(end); ++i)
       for (int k = 0; k < 100; ++k) sums.add(i, values[i]);
   });
   for (size_t i = 0; i < kPixels; ++i) {
-    LayerSums one(1);
+    PixelSums one(1);
     for (int k = 0; k < 100; ++k) one.add(0, values[i]);
     EXPECT_EQ(sums.sum(i).rgb[1].bits, one.sum(0).rgb[1].bits) << i;
   }
