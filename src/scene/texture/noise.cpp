@@ -32,18 +32,19 @@ constexpr float kLacunarity = 1.99f;
 /// Approximate mean of |noise|.
 constexpr float kMeanMagnitude = 0.2f;
 
-unsigned permuted(unsigned i) {
-  return kPermutation[i & 255u];
-}
+/// The permutation twice, so that sums of two bytes need no reduction.
+constexpr std::array<uint8_t, 512> kTwice = [] {
+  std::array<uint8_t, 512> twice{};
+  for (size_t i = 0; i < twice.size(); ++i) twice[i] = kPermutation[i & 255u];
+  return twice;
+}();
 
-/// The gradient of a lattice point times the offset from there. It is one of the twelve vectors
-/// from a cube's centre to its edges; four of them occur twice.
-float gradient_times(unsigned x, unsigned y, unsigned z, float dx, float dy, float dz) {
-  const unsigned h = permuted(permuted(permuted(x) + y) + z) & 15u;
-  const float u = h < 8 || h == 12 || h == 13 ? dx : dy;
-  const float v = h < 4 || h == 12 || h == 13 ? dy : dz;
-  return ((h & 1u) != 0 ? -u : u) + ((h & 2u) != 0 ? -v : v);
-}
+/// Gradients of lattice points: the twelve vectors from a cube's centre to its edges. Four of them
+/// occur twice.
+constexpr float kGradients[16][3] = {{1, 1, 0},  {-1, 1, 0},  {1, -1, 0}, {-1, -1, 0},
+                                     {1, 0, 1},  {-1, 0, 1},  {1, 0, -1}, {-1, 0, -1},
+                                     {0, 1, 1},  {0, -1, 1},  {0, 1, -1}, {0, -1, -1},
+                                     {1, 1, 0},  {-1, 1, 0},  {0, 1, -1}, {0, -1, -1}};
 
 /// From 0 to 1 with vanishing first and second derivatives at both ends.
 float fade(float t) {
@@ -56,7 +57,8 @@ struct Cell {
   float offset;
   explicit Cell(float coordinate) {
     // Beyond 2^30 floats have no fractional part: fmod changes only the cell.
-    const float v = std::fmod(coordinate, 1073741824.0f);
+    constexpr float kWhole = 1073741824.0f;
+    const float v = std::abs(coordinate) < kWhole ? coordinate : std::fmod(coordinate, kWhole);
     const float below = std::floor(v);
     index = static_cast<unsigned>(static_cast<int>(below)) & 255u;
     offset = v - below;
@@ -79,13 +81,19 @@ float share_of_last(float part) {
 
 float noise(const Vec3f& p) {
   const Cell x(p.x), y(p.y), z(p.z);
+  const float dx[2] = {x.offset, x.offset - 1.0f}, dy[2] = {y.offset, y.offset - 1.0f},
+              dz[2] = {z.offset, z.offset - 1.0f};
   float corner[2][2][2];
-  for (unsigned k = 0; k < 2; ++k)
-    for (unsigned j = 0; j < 2; ++j)
-      for (unsigned i = 0; i < 2; ++i)
-        corner[k][j][i] =
-            gradient_times(x.index + i, y.index + j, z.index + k, x.offset - static_cast<float>(i),
-                           y.offset - static_cast<float>(j), z.offset - static_cast<float>(k));
+  for (unsigned i = 0; i < 2; ++i) {
+    const unsigned of_x = kTwice[x.index + i] + y.index;
+    for (unsigned j = 0; j < 2; ++j) {
+      const unsigned of_xy = kTwice[of_x + j] + z.index;
+      for (unsigned k = 0; k < 2; ++k) {
+        const float* g = kGradients[kTwice[of_xy + k] & 15u];
+        corner[k][j][i] = g[0] * dx[i] + g[1] * dy[j] + g[2] * dz[k];
+      }
+    }
+  }
   const float wx = fade(x.offset), wy = fade(y.offset), wz = fade(z.offset);
   float plane[2];
   for (int k = 0; k < 2; ++k)
