@@ -8,6 +8,8 @@ namespace nephroid {
 namespace {
 
 constexpr int kDepths = 100;
+/// Share of a profile that lies within its reach.
+constexpr float kReached = 0.999f;
 
 /// Depth of the i-th of kDepths samples of exponential transmittance with extinction 1.
 double sampled_depth(int i) {
@@ -82,7 +84,8 @@ BssrdfTable::BssrdfTable(float g, float eta)
       radii_(kRadii),
       profile_(static_cast<size_t>(kAlbedos) * kRadii),
       cumulative_(profile_.size()),
-      effective_(kAlbedos) {
+      effective_(kAlbedos),
+      reach_(kAlbedos) {
   // Radii are denser where the profile is steep, albedos where they are high.
   radii_[0] = 0.0f;
   radii_[1] = 2.5e-3f;
@@ -90,6 +93,9 @@ BssrdfTable::BssrdfTable(float g, float eta)
   for (int i = 0; i < kAlbedos; ++i)
     albedos_[i] = static_cast<float>(std::expm1(-8.0 * i / (kAlbedos - 1)) / std::expm1(-8.0));
   for (int i = 0; i < kAlbedos; ++i) fill_row(i);
+  for (int i = 1; i < kAlbedos; ++i)
+    reach_[i] = sample_radius(albedo_weights(albedos_[i]), kReached).value_or(0.0f);
+  reach_[0] = reach_[1];  // no light leaves, so this is a limit
 }
 
 void BssrdfTable::fill_row(int albedo) {
@@ -128,18 +134,13 @@ std::optional<float> BssrdfTable::sample_radius(const SplineWeights& albedo, flo
     (cumulative(middle) <= target ? low : high) = middle;
   }
   const float rest = target - cumulative(low);
-  const float width = radii_[low + 1] - radii_[low];
-  // Cumulative values at the four nodes around the interval, interpolated once.
-  std::array<float, 4> values{};
-  for (int k = 0; k < 4; ++k)
-    if (low + k - 1 >= 0 && low + k - 1 < kRadii)
-      values[k] = albedo.of([&](int a) { return profile(a, low + k - 1); });
-  const auto value = [&](int radius) { return values[radius - low + 1]; };
-  const float t = solve_rising([&](float s) {
-    return std::pair{spline_integral_at(radii_, low, s).of(value) - rest,
-                     width * spline_value_at(radii_, low, s).of(value)};
+  const SplineSegment segment(radii_, low, [&](int radius) {
+    return albedo.of([&](int a) { return profile(a, radius); });
   });
-  return radii_[low] + t * width;
+  const float t = solve_rising([&](float s) {
+    return std::pair{segment.integral(s) - rest, segment.width() * segment.value(s)};
+  });
+  return radii_[low] + t * segment.width();
 }
 
 std::shared_ptr<const BssrdfTable> BssrdfTableCache::find_or_make(float g, float eta) {

@@ -45,6 +45,10 @@ class BssrdfTable {
   float effective_albedo(const SplineWeights& albedo) const {
     return albedo.of([this](int a) { return effective_[a]; });
   }
+  /// Radius that all but about 1/1000 of the light stays within.
+  float reach(const SplineWeights& albedo) const {
+    return albedo.of([this](int a) { return reach_[a]; });
+  }
   /// Samples a radius with density radial_density / effective_albedo, from u in [0,1). Empty if no
   /// light leaves the medium.
   std::optional<float> sample_radius(const SplineWeights& albedo, float u) const;
@@ -60,7 +64,7 @@ class BssrdfTable {
   void fill_row(int albedo);
 
   float g_, eta_;
-  std::vector<float> albedos_, radii_, profile_, cumulative_, effective_;
+  std::vector<float> albedos_, radii_, profile_, cumulative_, effective_, reach_;
 };
 
 /// Tables shared by materials with the same medium.

@@ -14,12 +14,6 @@ HermiteBasis value_basis(float t) {
   return {2 * t3 - 3 * t2 + 1, 3 * t2 - 2 * t3, t3 - 2 * t2 + t, t3 - t2};
 }
 
-HermiteBasis integral_basis(float t) {
-  const float t2 = t * t, t3 = t2 * t, t4 = t2 * t2;
-  return {0.5f * t4 - t3 + t, t3 - 0.5f * t4, 0.25f * t4 - t3 * (2.0f / 3.0f) + 0.5f * t2,
-          0.25f * t4 - t3 * (1.0f / 3.0f)};
-}
-
 // Slopes are differences of values, so everything is a combination of values.
 SplineWeights combine(std::span<const float> x, int i, const HermiteBasis& b) {
   const size_t k = i;
@@ -57,17 +51,7 @@ std::optional<int> spline_interval(std::span<const float> x, float at) {
 std::optional<SplineWeights> spline_value(std::span<const float> x, float at) {
   const std::optional<int> i = spline_interval(x, at);
   if (!i) return std::nullopt;
-  return spline_value_at(x, *i, (at - x[*i]) / (x[*i + 1] - x[*i]));
-}
-
-SplineWeights spline_value_at(std::span<const float> x, int i, float t) {
-  return combine(x, i, value_basis(t));
-}
-
-SplineWeights spline_integral_at(std::span<const float> x, int i, float t) {
-  SplineWeights s = combine(x, i, integral_basis(t));
-  for (float& w : s.w) w *= x[i + 1] - x[i];
-  return s;
+  return combine(x, *i, value_basis((at - x[*i]) / (x[*i + 1] - x[*i])));
 }
 
 float spline_integrate(std::span<const float> x, std::span<const float> f,
@@ -75,7 +59,7 @@ float spline_integrate(std::span<const float> x, std::span<const float> f,
   double sum = 0.0;
   cumulative[0] = 0.0f;
   for (size_t i = 0; i + 1 < x.size(); ++i) {
-    sum += spline_integral_at(x, static_cast<int>(i), 1.0f).of([&](int k) { return f[k]; });
+    sum += SplineSegment(x, static_cast<int>(i), [&](int k) { return f[k]; }).integral(1.0f);
     cumulative[i + 1] = static_cast<float>(sum);
   }
   return cumulative[x.size() - 1];
@@ -85,14 +69,9 @@ float spline_invert(std::span<const float> x, std::span<const float> f, float va
   if (!(value > f.front())) return x.front();
   if (!(value < f.back())) return x.back();
   const int i = *spline_interval(f, value);
-  const auto at = [&](int j) { return f[j]; };
-  const float t = solve_rising([&](float s) {
-    // The derivative only steers the search, so a finite difference will do.
-    constexpr float kStep = 1e-3f;
-    const float here = spline_value_at(x, i, s).of(at);
-    const float there = spline_value_at(x, i, s + kStep).of(at);
-    return std::pair{here - value, (there - here) / kStep};
-  });
+  const SplineSegment segment(x, i, [&](int k) { return f[k]; });
+  const float t = solve_rising(
+      [&](float s) { return std::pair{segment.value(s) - value, segment.derivative(s)}; });
   return x[i] + t * (x[i + 1] - x[i]);
 }
 

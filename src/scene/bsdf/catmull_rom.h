@@ -35,10 +35,35 @@ std::optional<int> spline_interval(std::span<const float> x, float at);
 /// Weights of the spline's value at `at`. Empty outside of the points.
 std::optional<SplineWeights> spline_value(std::span<const float> x, float at);
 
-/// Weights of the value at the share t in [0,1] of interval `i`, and of the integral from the
-/// interval's start to there.
-SplineWeights spline_value_at(std::span<const float> x, int i, float t);
-SplineWeights spline_integral_at(std::span<const float> x, int i, float t);
+/// The spline on one interval: a cubic in the share t in [0,1] of the interval.
+class SplineSegment {
+ public:
+  /// Interval `i` of the points `x`; value(k) is the value at point k.
+  template <class Value>
+  SplineSegment(std::span<const float> x, int i, Value&& value) {
+    const size_t k = i;
+    width_ = x[k + 1] - x[k];
+    const float begin = value(i), end = value(i + 1);
+    const float first =
+        k > 0 ? (end - value(i - 1)) * width_ / (x[k + 1] - x[k - 1]) : end - begin;
+    const float last =
+        k + 2 < x.size() ? (value(i + 2) - begin) * width_ / (x[k + 2] - x[k]) : end - begin;
+    c_ = {begin, first, 3 * (end - begin) - 2 * first - last, 2 * (begin - end) + first + last};
+  }
+  float value(float t) const { return ((c_[3] * t + c_[2]) * t + c_[1]) * t + c_[0]; }
+  /// Derivative of the value by t.
+  float derivative(float t) const { return (3 * c_[3] * t + 2 * c_[2]) * t + c_[1]; }
+  /// Integral over x from the interval's start.
+  float integral(float t) const {
+    return width_ * t *
+           (((c_[3] * 0.25f * t + c_[2] * (1.0f / 3.0f)) * t + c_[1] * 0.5f) * t + c_[0]);
+  }
+  float width() const { return width_; }
+
+ private:
+  float width_;
+  std::array<float, 4> c_;  ///< coefficients of t^0 to t^3
+};
 
 /// Fills `cumulative` with the spline's integral from x[0] to each point; returns the last.
 float spline_integrate(std::span<const float> x, std::span<const float> f,

@@ -8,8 +8,6 @@ namespace {
 
 /// Shares of probes along the two tangents and the normal.
 constexpr float kAxisShare[3] = {0.25f, 0.25f, 0.5f};
-/// Share of a profile that lies within its reach.
-constexpr float kReached = 0.999f;
 
 }  // namespace
 
@@ -23,13 +21,11 @@ TabulatedBssrdf::TabulatedBssrdf(const Vec3f& p, const Vec3f& ns, const SampledS
       sigma_t_(sigma_a + sigma_s) {
   const SampledSpectrum albedo = safe_div(sigma_s, sigma_t_);
   for (int i = first_; i < first_ + wavelengths_; ++i) {
-    SplineWeights& weights = albedo_[i];
-    weights = table_->albedo_weights(albedo[i]);
-    const std::optional<float> reach =
-        sigma_t_[i] > 0.0f ? table_->sample_radius(weights, kReached) : std::nullopt;
-    if (!reach) continue;
-    reach_.set(i, *reach / sigma_t_[i]);
-    effective_albedo_.set(i, table_->effective_albedo(weights));
+    albedo_[i] = table_->albedo_weights(albedo[i]);
+    const float effective = table_->effective_albedo(albedo_[i]);
+    if (!(sigma_t_[i] > 0.0f) || !(effective > 0.0f)) continue;
+    reach_.set(i, table_->reach(albedo_[i]) / sigma_t_[i]);
+    effective_albedo_.set(i, effective);
   }
 }
 

@@ -26,8 +26,8 @@ class TabulatedBssrdf final : public Bssrdf {
   float profile(int i, float r) const;
   /// Density of the probe radii of wavelength i, per area of the plane perpendicular to the probe.
   float pdf_r(int i, float r) const;
-  /// Largest probe radius of wavelength i: all but 1/1000 of the profile lies within. 0 if no light
-  /// leaves.
+  /// Largest probe radius of wavelength i: all but about 1/1000 of the profile lies within. 0 if no
+  /// light leaves.
   float reach(int i) const { return reach_[i]; }
 
  private:

@@ -58,7 +58,12 @@ TEST(CatmullRom, IntegralIsThatOfTheValue) {
     const double half = simpson(kNodes[i], 0.5 * (kNodes[i] + kNodes[i + 1]), 4, [&](double x) {
       return spline_value(kNodes, static_cast<float>(x))->of(value);
     });
-    EXPECT_NEAR(spline_integral_at(kNodes, static_cast<int>(i), 0.5f).of(value), half, 1e-5) << i;
+    const SplineSegment segment(kNodes, static_cast<int>(i), value);
+    EXPECT_NEAR(segment.integral(0.5f), half, 1e-5) << i;
+    const float third = kNodes[i] + segment.width() / 3;
+    EXPECT_NEAR(segment.value(1.0f / 3), spline_value(kNodes, third)->of(value), 1e-5) << i;
+    EXPECT_NEAR(segment.derivative(0.4f), 50 * (segment.value(0.41f) - segment.value(0.39f)), 1e-2)
+        << i;
   }
 }
 
