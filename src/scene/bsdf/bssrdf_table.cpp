@@ -137,7 +137,8 @@ std::optional<float> BssrdfTable::sample_radius(const SplineWeights& albedo, flo
   const SplineSegment segment(radii_, low, [&](int radius) {
     return albedo.of([&](int a) { return profile(a, radius); });
   });
-  const float t = solve_rising([&](float s) {
+  const float of_all = segment.integral(1.0f);
+  const float t = solve_rising(of_all > rest ? rest / of_all : 1.0f, [&](float s) {
     return std::pair{segment.integral(s) - rest, segment.width() * segment.value(s)};
   });
   return radii_[low] + t * segment.width();

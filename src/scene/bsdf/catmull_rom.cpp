@@ -70,8 +70,9 @@ float spline_invert(std::span<const float> x, std::span<const float> f, float va
   if (!(value < f.back())) return x.back();
   const int i = *spline_interval(f, value);
   const SplineSegment segment(x, i, [&](int k) { return f[k]; });
-  const float t = solve_rising(
-      [&](float s) { return std::pair{segment.value(s) - value, segment.derivative(s)}; });
+  const float t = solve_rising((value - f[i]) / (f[i + 1] - f[i]), [&](float s) {
+    return std::pair{segment.value(s) - value, segment.derivative(s)};
+  });
   return x[i] + t * (x[i + 1] - x[i]);
 }
 

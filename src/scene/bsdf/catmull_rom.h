@@ -74,10 +74,11 @@ float spline_integrate(std::span<const float> x, std::span<const float> f,
 float spline_invert(std::span<const float> x, std::span<const float> f, float value);
 
 /// Root in [0,1] of a non-decreasing function that is at most 0 at 0, to float precision: Newton's
-/// method, with bisection where a step leads astray. `eval(t)` returns value and derivative.
+/// method from `start`, with bisection where a step leads astray. `eval(t)` returns value and
+/// derivative.
 template <class Eval>
-float solve_rising(Eval&& eval) {
-  float low = 0.0f, high = 1.0f, t = 0.5f;
+float solve_rising(float start, Eval&& eval) {
+  float low = 0.0f, high = 1.0f, t = start;
   for (int step = 0; step < 64; ++step) {
     const std::pair<float, float> at = eval(t);
     (at.first < 0.0f ? low : high) = t;
