@@ -12,14 +12,13 @@
 
 namespace nephroid {
 
-/// Asks the system for pages of 2 MB, so that few of them must be backed. A page that is read
-/// before it is written to is first a shared page of zeros, and replacing that stops all threads.
-void prefer_huge_pages(void* memory, size_t bytes);
-
 enum class Pages : uint8_t {
-  kHuge,  ///< quick where most of an array is written to
-  kSmall  ///< little memory where only few items are
+  kHuge,  ///< 2 MB: quick where most of an array is written to, as few pages must be backed
+  kSmall  ///< 4 KB: little memory where only few items are written to
 };
+/// Asks the system for pages of this size. A small page that is read before it is written to is
+/// first a shared page of zeros, and replacing that stops all threads.
+void prefer_pages(Pages pages, void* memory, size_t bytes);
 
 /// A fixed number of items, initially all bits zero. The system backs pages when they are first
 /// written to, so zeros cost neither memory nor time.
@@ -34,7 +33,7 @@ class ZeroedArray {
   explicit ZeroedArray(size_t size, Pages pages = Pages::kHuge)
       : items_(static_cast<T*>(std::calloc(size, sizeof(T)))), size_(size) {
     if (size > 0 && !items_) throw std::bad_alloc();
-    if (pages == Pages::kHuge) prefer_huge_pages(items_.get(), size * sizeof(T));
+    prefer_pages(pages, items_.get(), size * sizeof(T));
   }
 
   ZeroedArray(ZeroedArray&&) noexcept = default;

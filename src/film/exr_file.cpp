@@ -61,7 +61,7 @@ uint64_t bytes_of_block(int width, size_t channels) {
 }
 
 int rows_at_once(int width, size_t channels) {
-  const bool fit = kExrBlocksAtOnce * bytes_of_block(width, channels) <= kMaxEncoderBytes / 2;
+  const bool fit = kExrBlocksAtOnce * bytes_of_block(width, channels) <= kMaxEncoderBytes / 3;
   return fit ? kExrBlocksAtOnce * kRowsOfBlock : kRowsOfBlock;
 }
 
@@ -70,7 +70,7 @@ int rows_at_once(int width, size_t channels) {
 int encoder_threads(int width, size_t channels) {
   const uint64_t of_thread = 2 * 3 * bytes_of_block(width, channels);
   const auto fit = static_cast<int>(std::min<uint64_t>(
-      kExrBlocksAtOnce, kMaxEncoderBytes / 2 / std::max<uint64_t>(1, of_thread)));
+      kExrBlocksAtOnce, kMaxEncoderBytes / 3 / std::max<uint64_t>(1, of_thread)));
   return std::min(fit, Imf::globalThreadCount());
 }
 

@@ -24,8 +24,9 @@ void write_exr(const std::string& path, const PictureHead& head,
 /// Writes a picture in 32-bit floats.
 void write_exr(const std::string& path, const Picture& picture);
 
-/// Memory limit of write_exr in bytes; exceeded only if a few blocks of rows need more.
-inline constexpr uint64_t kMaxEncoderBytes = uint64_t{256} << 20;
+/// Bytes that write_exr may hold; more only where a few blocks of rows need more. Wide pictures
+/// have large blocks and are written by fewer threads.
+inline constexpr uint64_t kMaxEncoderBytes = uint64_t{384} << 20;
 /// Upper bound of write_exr's memory in bytes, for a picture of this width and number of channels.
 uint64_t encoder_bytes(int width, size_t channels);
 

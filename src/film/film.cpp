@@ -76,7 +76,8 @@ size_t Film::bytes_per_pixel(const FilmLayout& layout, bool gbuffer) {
   const size_t sums =
       layout.routes.size() + layout.layers_of_groups().size() + layout.group_count();
   const size_t merging = std::count(layout.merges.begin(), layout.merges.end(), true);
-  return sums * PixelSums::kBytesPerPixel + merging * sizeof(Bias) + sizeof(Features) +
+  return sums * PixelSums::kBytesPerPixel + layout.group_count() * PixelSums::kCarryBytesPerPixel +
+         merging * sizeof(Bias) + sizeof(Features) +
          (gbuffer ? sizeof(SurfaceSums) + sizeof(uint64_t) : 0) + sizeof(uint64_t);  // depths
 }
 

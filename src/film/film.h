@@ -40,8 +40,8 @@ struct SurfaceSample {
 class Film {
  public:
   Film(const FilmSettings& settings, FilmLayout layout);
-  /// Memory for each pixel of the crop, with or without geometric layers. Carries of sums, which
-  /// few pixels need (pixel_sums.h), are not counted.
+  /// Memory for each pixel of the crop, with or without geometric layers. Carries of routes and
+  /// AOVs, which few pixels need, are not counted, those of squares are (pixel_sums.h).
   static size_t bytes_per_pixel(const FilmLayout& layout, bool gbuffer);
 
   const FilmFormat& format() const { return format_; }
@@ -121,15 +121,15 @@ class Film {
   /// Adds a sample that hit something to the geometric layers, if the film has them.
   void add_surface(int x, int y, const SurfaceSample& sample);
 
-  /// Means of a route, of an AOV, and of all routes together, from sums of estimates
-  /// rounded to steps of 2^-44, and rounded once. If a group has not reached the pixel in its first
-  /// pass, the nearest pixel of a wider lattice stands in.
+  /// Means of a route, of an AOV, and of all routes together. Estimates are rounded to steps of
+  /// 2^-44 and summed exactly, and the mean is rounded once. If a group has not reached the pixel
+  /// in its first pass, the nearest pixel of a wider lattice stands in.
   Rgb route_value(int route, int x, int y) const;
   Rgb aov_value(int aov, int x, int y) const;
   Rgb value(int x, int y) const;
   /// Estimates of a pixel by the group that has most of them.
   uint64_t samples(int x, int y) const;
-  /// Held light of all routes. value() + outliers() is the picture without rejection, up to one
+  /// Held light of all routes. value() + outliers() is the picture without rejection, up to
   /// rounding. Black without rejection.
   Rgb outliers(int x, int y) const;
   /// [F3] Standard error of value() + outliers(), from the variance of each group's estimates,

@@ -9,20 +9,20 @@ namespace nephroid {
 
 RenderState Film::state() {
   RenderState state;
-  const auto numbered = [](const char* name, size_t i) { return name + std::to_string(i); };
+  const auto numbered = [](std::string name, size_t i) { return name + std::to_string(i); };
   const auto add_sums = [&](const std::string& kind, std::vector<PixelSums>& all) {
     for (size_t i = 0; i < all.size(); ++i) {
       PixelSums& sums = all[i];
-      state.add("film." + kind + "." + std::to_string(i), sums.words());
+      state.add(numbered("film." + kind, i), sums.words());
       state.streams.push_back(
-          {"film.carries." + kind + "." + std::to_string(i), sums.most_carry_words(),
+          {numbered("film.carries." + kind, i), sums.most_carry_words(),
            [&sums] { return sums.save_carries(); },
            [&sums](std::span<const uint32_t> words) { sums.load_carries(words); }});
     }
   };
-  add_sums("sum", sums_);
-  add_sums("layer", layers_);
-  add_sums("square", squares_);
+  add_sums("sum.", sums_);
+  add_sums("layer.", layers_);
+  add_sums("square.", squares_);
   for (size_t g = 0; g < biases_.size(); ++g)
     if (!biases_[g].empty()) state.add(numbered("film.bias.", g), biases_[g].items());
   state.add("film.features", features_.items());

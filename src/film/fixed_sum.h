@@ -1,5 +1,5 @@
-// The exact accumulator of the film: 128-bit fixed point with steps of 2^-64, so that additions
-// commute and can be undone exactly. It must not know pixels.
+// Exact sums in fixed point, so that additions commute and can be undone: of splats, held light,
+// biases and features. Sums of colours are in pixel_sums.h. It must not know pixels.
 #pragma once
 
 #include <cstdint>

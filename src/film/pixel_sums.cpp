@@ -8,15 +8,6 @@
 #include "core/errors.h"
 
 namespace nephroid {
-namespace {
-
-/// Sums saturate at 2 to this power: carries then fit, and RgbSum can hold them.
-constexpr int kIntegerBits = 62;
-/// Above every carry of a sum.
-constexpr int64_t kMostCarry = int64_t{1} << (kIntegerBits + FixedSum::kFractionalBits - 64);
-
-}  // namespace
-
 PixelSums::PixelSums(size_t pixels, int fractional_bits)
     : fractional_bits_(fractional_bits), words_(pixels), carries_(std::make_unique<Carries>()) {}
 
@@ -38,9 +29,12 @@ ZeroedArray<PixelSums::PixelCarries>& PixelSums::made_carries() {
 }
 
 PixelSums::Bits PixelSums::rounded(Bits sum) const {
-  if (sum < 0) return -rounded(-sum);
-  const bool up = (sum >> (dropped_bits() - 1) & 1) != 0;
-  return (sum >> dropped_bits()) + (up ? 1 : 0);
+  __extension__ using Magnitude = unsigned __int128;
+  // The magnitude is unsigned, so that the least number has one, too.
+  const Magnitude magnitude = sum < 0 ? -static_cast<Magnitude>(sum) : static_cast<Magnitude>(sum);
+  const Magnitude half = Magnitude{1} << (dropped_bits() - 1);
+  const auto steps = static_cast<Bits>((magnitude + half) >> dropped_bits());
+  return sum < 0 ? -steps : steps;
 }
 
 PixelSums::Bits PixelSums::steps(size_t pixel, size_t c) const {
@@ -58,7 +52,7 @@ void PixelSums::set_steps(size_t pixel, size_t c, Bits steps) {
 }
 
 bool PixelSums::add_steps(size_t pixel, size_t c, Bits added) {
-  const Bits most = Bits{1} << (kIntegerBits + fractional_bits_);
+  const Bits most = most_steps();
   const Bits sum = steps(pixel, c) + added;
   const bool fits = -most <= sum && sum <= most;
   set_steps(pixel, c, std::clamp(sum, -most, most));
@@ -107,6 +101,9 @@ bool PixelSums::is_zero(size_t pixel) const {
 std::vector<uint32_t> PixelSums::save_carries() const {
   std::vector<uint32_t> words;
   if (!have_carries()) return words;
+  words.reserve(kWordsPerCarry * std::ranges::count_if(carries_->of_pixels, [](const auto& carry) {
+                  return carry != PixelCarries{};
+                }));
   for (size_t pixel = 0; pixel < words_.size(); ++pixel) {
     const PixelCarries& carries = carries_->of_pixels[pixel];
     if (carries == PixelCarries{}) continue;
@@ -128,7 +125,7 @@ void PixelSums::load_carries(std::span<const uint32_t> words) {
     for (size_t c = 0; c < 3; ++c) {
       const uint64_t low = words[2 * c + 1], high = words[2 * c + 2];
       const auto carry = static_cast<int64_t>(high << 32 | low);
-      if (carry < -kMostCarry || carry > kMostCarry)
+      if (carry < -most_carry() || carry > most_carry())
         throw IoError("carries of sums are damaged: a carry out of range");
       made_carries()[words[0]][c] = carry;
     }

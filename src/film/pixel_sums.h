@@ -1,5 +1,5 @@
 // A sum of colours for each pixel: what the film keeps for a route, an AOV and the squares of
-// estimates. A component has 64 bits, and a carry where a sum needs more: few pixels do. Exact in
+// estimates. A component has 64 bits, and a carry where a sum needs more: few colours do. Exact in
 // any order (docs/adr/0044-sums-of-pixels-have-64-bits-and-a-carry.md). It must not know films.
 #pragma once
 
@@ -22,12 +22,14 @@ class PixelSums {
  public:
   /// Low 64 bits of the components, as a signed number.
   using Words = std::array<int64_t, 3>;
-  static constexpr size_t kBytesPerPixel = sizeof(Words);  ///< without carries
+  static constexpr size_t kBytesPerPixel = sizeof(Words);                   ///< without carries
+  static constexpr size_t kCarryBytesPerPixel = 3 * sizeof(int64_t);        ///< where there are any
+  static constexpr size_t kSavedCarryBytesPerPixel = 7 * sizeof(uint32_t);  ///< of save_carries()
   /// Fractional bits for colours. A float from 2^-21 on is a multiple of such a step, and sums up
   /// to 2^19 have no carry.
   static constexpr int kColorBits = 44;
   /// Fractional bits for squares of colours, which are smaller where colours are dim. Sums up to
-  /// 2^15 have no carry.
+  /// 2^15 have no carry; long renders of bright pixels have larger ones.
   static constexpr int kSquareBits = 48;
 
   explicit PixelSums(size_t pixels, int fractional_bits = kColorBits);
@@ -58,8 +60,11 @@ class PixelSums {
  private:
   using Bits = FixedSum::Bits;
   using PixelCarries = std::array<int64_t, 3>;
+  static_assert(sizeof(PixelCarries) == kCarryBytesPerPixel);
+  /// Sums saturate at 2 to this power: RgbSum can hold them.
+  static constexpr int kLimitExponent = 62;
   /// Words of a saved carry: the pixel, and two for each component.
-  static constexpr size_t kWordsPerCarry = 7;
+  static constexpr size_t kWordsPerCarry = kSavedCarryBytesPerPixel / sizeof(uint32_t);
   /// An array that is made when a sum first needs it.
   struct Carries {
     std::once_flag once;
@@ -67,6 +72,9 @@ class PixelSums {
     ZeroedArray<PixelCarries> of_pixels;
   };
 
+  /// Largest magnitude of a sum, in steps, and of its carry.
+  Bits most_steps() const { return Bits{1} << (kLimitExponent + fractional_bits_); }
+  int64_t most_carry() const { return static_cast<int64_t>(most_steps() >> 64); }
   /// Bits of a FixedSum below a step.
   int dropped_bits() const { return FixedSum::kFractionalBits - fractional_bits_; }
   /// Steps of a FixedSum, to nearest, ties away from zero: x and -x cancel.

@@ -88,7 +88,9 @@ void check_memory(const MemoryNeed& need, uint64_t limit, bool limit_is_an_optio
                                              : 0.0},
       {"textures", static_cast<double>(need.textures)},
       {"writing the picture",
-       need.writes ? of_pixels(kPngBytes + of_rejection) + static_cast<double>(of_encoder) : 0.0},
+       need.writes ? of_pixels(kPngBytes + PixelSums::kSavedCarryBytesPerPixel + of_rejection) +
+                         static_cast<double>(of_encoder)
+                   : 0.0},
   };
   double total = 0;
   std::string list;

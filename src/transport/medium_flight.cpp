@@ -106,6 +106,33 @@ float emission_rate(MajorantIterator pieces) {
 
 constexpr auto kHero = [](const SampledSpectrum& sigma) { return sigma[0]; };
 
+/// Ratio tracking, with `factor` times the largest majorant of a piece for all wavelengths. Returns
+/// the transmittance. Calls `met(t, properties, rate, before, after)` at each tentative collision,
+/// with the transmittance on both sides of it, and once more with `after` 0 if it gives up.
+template <class Met>
+SampledSpectrum track_ratio(const Medium& medium, const Ray& ray, MajorantIterator pieces,
+                            float factor, const SampledWavelengths& lambda, FlightRandom& random,
+                            Met&& met) {
+  const SampledSpectrum none(0.0f);
+  SampledSpectrum through(1.0f);
+  const auto rate_of = [factor](const SampledSpectrum& sigma) {
+    return factor * sigma.max_component();
+  };
+  Steps steps(pieces, random);
+  while (steps.next(rate_of, [](const SampledSpectrum&, float) {})) {
+    const MediumProperties m = medium.at(ray.o + ray.d * steps.t(), lambda);
+    const float rate = rate_of(steps.majorant());
+    const SampledSpectrum before = through;
+    through *= positive_part(SampledSpectrum(rate) - extinction(m)) * (1.0f / rate);
+    const bool goes_on = survives(through, through.max_component(), random);
+    met(steps.t(), m, rate, before, goes_on ? through : none);
+    if (!goes_on) return none;
+  }
+  if (!steps.given_up()) return through;
+  met(steps.t(), MediumProperties(), 1.0f, through, none);
+  return none;
+}
+
 }  // namespace
 
 SampledSpectrum attenuation(const Medium& medium, const Ray& ray, float t_max,
@@ -117,21 +144,12 @@ SampledSpectrum attenuation(const Medium& medium, const Ray& ray, float t_max,
       *emitted += uniform_emission(medium.at(ray.o, lambda), t_max);
     return through;
   }
-  SampledSpectrum through(1.0f);
   const MajorantIterator pieces = medium.majorants(ray, t_max, lambda);
-  const float factor = emitted ? emission_rate(pieces) : 1.0f;
-  const auto rate_of = [factor](const SampledSpectrum& sigma) {
-    return factor * sigma.max_component();
-  };
-  Steps steps(pieces, random);
-  while (steps.next(rate_of, [](const SampledSpectrum&, float) {})) {
-    const MediumProperties m = medium.at(ray.o + ray.d * steps.t(), lambda);
-    const float rate = rate_of(steps.majorant());
-    if (emitted) *emitted += through * m.sigma_a * m.le * (1.0f / rate);
-    through *= positive_part(SampledSpectrum(rate) - extinction(m)) * (1.0f / rate);
-    if (!survives(through, through.max_component(), random)) return SampledSpectrum(0.0f);
-  }
-  return steps.given_up() ? SampledSpectrum(0.0f) : through;
+  return track_ratio(medium, ray, pieces, emitted ? emission_rate(pieces) : 1.0f, lambda, random,
+                     [emitted](float, const MediumProperties& m, float rate,
+                               const SampledSpectrum& before, const SampledSpectrum&) {
+                       if (emitted) *emitted += before * m.sigma_a * m.le * (1.0f / rate);
+                     });
 }
 
 std::optional<Collision> fly(const Medium& medium, const Ray& ray, float t_max,
@@ -247,18 +265,11 @@ FlightTransmittance::FlightTransmittance(const Medium& medium, const Ray& ray, f
                                          const SampledWavelengths& lambda, FlightRandom& random)
     : uniform_(medium.uniform_extinction(lambda)) {
   if (uniform_) return;
-  SampledSpectrum through(1.0f);
-  const auto rate_of = [](const SampledSpectrum& sigma) { return sigma.max_component(); };
-  Steps steps(medium.majorants(ray, t_max, lambda), random);
-  while (steps.next(rate_of, [](const SampledSpectrum&, float) {})) {
-    const MediumProperties m = medium.at(ray.o + ray.d * steps.t(), lambda);
-    const float rate = rate_of(steps.majorant());
-    through *= positive_part(SampledSpectrum(rate) - extinction(m)) * (1.0f / rate);
-    const bool goes_on = survives(through, through.max_component(), random);
-    steps_.push_back({steps.t(), goes_on ? through : SampledSpectrum(0.0f)});
-    if (!goes_on) return;
-  }
-  if (steps.given_up()) steps_.push_back({steps.t(), SampledSpectrum(0.0f)});
+  track_ratio(medium, ray, medium.majorants(ray, t_max, lambda), 1.0f, lambda, random,
+              [this](float t, const MediumProperties&, float, const SampledSpectrum&,
+                     const SampledSpectrum& after) {
+                steps_.push_back({t, after});
+              });
 }
 
 SampledSpectrum FlightTransmittance::at(float t) const {

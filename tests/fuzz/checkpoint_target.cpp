@@ -26,6 +26,14 @@ void read(const std::string& path) {
   passes_add_up(file);
   file.load(film.state());
   invalid_samples(film);
+  // Sums are used as they are in the file.
+  const PixelBounds& crop = film.bounds();
+  for (int y = crop.y0; y < crop.y1; ++y)
+    for (int x = crop.x0; x < crop.x1; ++x) {
+      film.value(x, y);
+      film.standard_error(x, y);
+    }
+  if (!film.has_open_pass() && film.rejection() == nullptr) film.add(Film(film));
 }
 
 /// Corrects the checksum of the index in the footer: no fuzzer would find one.

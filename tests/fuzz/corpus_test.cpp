@@ -5,7 +5,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "film/state_file.h"
 #include "fuzz/targets.h"
+#include "session/checkpoint/film_metadata.h"
 #include "source_directory.h"
 
 namespace nephroid {
@@ -30,6 +32,26 @@ TEST_P(FuzzCorpus, NothingCrashes) {
     ++files;
   }
   EXPECT_GE(files, 5);
+}
+
+// A state of another format would lead a fuzzer nowhere. tools/make_fuzz_states renders new ones.
+TEST(FuzzSeeds, StatesHaveTheFormatOfToday) {
+  int states = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(
+           std::filesystem::path(testing_support::source_directory()) /
+           "tests/fuzz/corpus/checkpoint")) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("seed-") || name.starts_with("seed-held")) continue;
+    SCOPED_TRACE(name);
+    EXPECT_NO_THROW({
+      StateFile file(entry.path().string());
+      Film film = film_of(file);
+      file.load(film.state());
+      EXPECT_TRUE(film.has_light());
+    });
+    ++states;
+  }
+  EXPECT_GE(states, 5);
 }
 
 INSTANTIATE_TEST_SUITE_P(

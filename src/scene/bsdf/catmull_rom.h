@@ -44,8 +44,7 @@ class SplineSegment {
     const size_t k = i;
     width_ = x[k + 1] - x[k];
     const float begin = value(i), end = value(i + 1);
-    const float first =
-        k > 0 ? (end - value(i - 1)) * width_ / (x[k + 1] - x[k - 1]) : end - begin;
+    const float first = k > 0 ? (end - value(i - 1)) * width_ / (x[k + 1] - x[k - 1]) : end - begin;
     const float last =
         k + 2 < x.size() ? (value(i + 2) - begin) * width_ / (x[k + 2] - x[k]) : end - begin;
     c_ = {begin, first, 3 * (end - begin) - 2 * first - last, 2 * (begin - end) + first + last};

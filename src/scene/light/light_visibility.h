@@ -11,10 +11,10 @@
 
 namespace nephroid {
 
-/// What one sample says about one slot: a light, a group of lights, or a node of a light tree.
+/// One sample of a slot: a light, a group of lights, or a node of a light tree.
 struct SlotSample {
   uint32_t slot = 0;
-  double value = 0;  ///< left out if it is not finite
+  double value = 0;  ///< ignored if it is not finite; the light sampler says what it is
 };
 
 /// Samples at a point, in any number.
@@ -23,13 +23,14 @@ struct SurveyedPoint {
   std::vector<SlotSample> samples;
 };
 
-/// Part of the choices that ignores what was learned, since what a cell has not seen may be there.
+/// Part of the choices that ignores what was learned: a light that no sample of a cell saw may
+/// still shine there.
 inline constexpr double kUnlearned = 0.1;
 
-/// Probabilities of one and the same choice.
+/// Both probabilities of one choice.
 struct ChoiceProbability {
-  double plain = 1;    ///< by importance alone
-  double learned = 1;  ///< by importance times what was learned
+  double plain = 1;    ///< in proportion to the importance of the lights
+  double learned = 1;  ///< in proportion to importance times the learned share that arrives
   /// [D5] The probability if a part of the choices is plain.
   double mixed() const { return kUnlearned * plain + (1 - kUnlearned) * learned; }
   ChoiceProbability& operator*=(const ChoiceProbability& next) {

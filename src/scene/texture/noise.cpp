@@ -33,7 +33,7 @@ constexpr float kLacunarity = 1.99f;
 constexpr float kMeanMagnitude = 0.2f;
 
 /// The permutation twice, so that sums of two bytes need no reduction.
-constexpr std::array<uint8_t, 512> kTwice = [] {
+constexpr std::array<uint8_t, 512> kPermutationTwice = [] {
   std::array<uint8_t, 512> twice{};
   for (size_t i = 0; i < twice.size(); ++i) twice[i] = kPermutation[i & 255u];
   return twice;
@@ -41,10 +41,9 @@ constexpr std::array<uint8_t, 512> kTwice = [] {
 
 /// Gradients of lattice points: the twelve vectors from a cube's centre to its edges. Four of them
 /// occur twice.
-constexpr float kGradients[16][3] = {{1, 1, 0},  {-1, 1, 0},  {1, -1, 0}, {-1, -1, 0},
-                                     {1, 0, 1},  {-1, 0, 1},  {1, 0, -1}, {-1, 0, -1},
-                                     {0, 1, 1},  {0, -1, 1},  {0, 1, -1}, {0, -1, -1},
-                                     {1, 1, 0},  {-1, 1, 0},  {0, 1, -1}, {0, -1, -1}};
+constexpr float kGradients[16][3] = {
+    {1, 1, 0}, {-1, 1, 0}, {1, -1, 0}, {-1, -1, 0}, {1, 0, 1}, {-1, 0, 1}, {1, 0, -1}, {-1, 0, -1},
+    {0, 1, 1}, {0, -1, 1}, {0, 1, -1}, {0, -1, -1}, {1, 1, 0}, {-1, 1, 0}, {0, 1, -1}, {0, -1, -1}};
 
 /// From 0 to 1 with vanishing first and second derivatives at both ends.
 float fade(float t) {
@@ -85,11 +84,11 @@ float noise(const Vec3f& p) {
               dz[2] = {z.offset, z.offset - 1.0f};
   float corner[2][2][2];
   for (unsigned i = 0; i < 2; ++i) {
-    const unsigned of_x = kTwice[x.index + i] + y.index;
+    const unsigned of_x = kPermutationTwice[x.index + i] + y.index;
     for (unsigned j = 0; j < 2; ++j) {
-      const unsigned of_xy = kTwice[of_x + j] + z.index;
+      const unsigned of_xy = kPermutationTwice[of_x + j] + z.index;
       for (unsigned k = 0; k < 2; ++k) {
-        const float* g = kGradients[kTwice[of_xy + k] & 15u];
+        const float* g = kGradients[kPermutationTwice[of_xy + k] & 15u];
         corner[k][j][i] = g[0] * dx[i] + g[1] * dy[j] + g[2] * dz[k];
       }
     }

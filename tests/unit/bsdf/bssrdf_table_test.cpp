@@ -183,6 +183,24 @@ TEST(BssrdfTable, ProfilesBetweenAlbedosIntegrateToTheEffectiveAlbedo) {
   EXPECT_EQ(table.radial_density(table.albedo_weights(0.9f), 300.0f), 0.0f);
 }
 
+TEST(BssrdfTable, NearlyAllLightIsWithinReach) {
+  for (const auto& [g, eta] : {std::pair{0.0f, 1.33f}, {0.7f, 1.5f}, {-0.5f, 1.1f}}) {
+    const BssrdfTable table(g, eta);
+    for (const float albedo : {0.001f, 0.03f, 0.2f, 0.5f, 0.871f, 0.99f, 0.9991f, 1.0f}) {
+      const SplineWeights w = table.albedo_weights(albedo);
+      const float reach = table.reach(w);
+      ASSERT_GT(reach, 0);
+      double within = 0.0;
+      for (size_t k = 0; k + 1 < table.radii().size() && table.radii()[k] < reach; ++k)
+        within += simpson(table.radii()[k], std::min(table.radii()[k + 1], reach), 8,
+                          [&](double r) { return table.radial_density(w, static_cast<float>(r)); });
+      const double share = within / static_cast<double>(table.effective_albedo(w));
+      EXPECT_GT(share, 0.998) << g << " " << albedo;
+      EXPECT_LT(share, 1.0001) << g << " " << albedo;
+    }
+  }
+}
+
 TEST(BssrdfTable, SampledRadiiFollowTheProfile) {
   const BssrdfTable table(0.0f, 1.33f);
   for (const float albedo : {0.1f, 0.83f, 0.9995f}) {

@@ -287,8 +287,8 @@ TEST(Film, ReplaceForgetsEveryPartOfItsGroupAlone) {
   EXPECT_EQ(film.aov_value(1, 2, 1).g, 16.0f);
 }
 
-// A lamp in view is much brighter than what 64 bits of a layer hold.
-TEST(Film, AovsOfBrightLampsAreExact) {
+// A lamp in view is much brighter than what 64 bits of a sum hold.
+TEST(Film, SumsOfBrightLampsAreExact) {
   Film film(small_settings(), layout_with_aovs()), other(small_settings(), layout_with_aovs());
   const Rgb values[] = {{3e7f, 0.25f, 1}, {0, 0, 0}, {0, 0, 0}};
   for (int i = 0; i < 100; ++i) film.add(0, 2, 1, values);
@@ -307,6 +307,25 @@ TEST(Film, AovsOfBrightLampsAreExact) {
     std::ranges::copy(from.arrays[i].bytes, to.arrays[i].bytes.begin());
   for (size_t i = 0; i < from.streams.size(); ++i) to.streams[i].load(from.streams[i].save());
   EXPECT_EQ(loaded.aov_value(0, 2, 1).r, 3e7f);
+  for (int c = 0; c < 3; ++c) {
+    for (int route = 0; route < 3; ++route)
+      EXPECT_EQ(loaded.route_value(route, 2, 1)[c], other.route_value(route, 2, 1)[c]);
+    EXPECT_EQ(loaded.standard_error(2, 1)[c], other.standard_error(2, 1)[c]);
+  }
+  EXPECT_LT(loaded.standard_error(2, 1).r, 3e7f * 1e-7f);
+}
+
+TEST(Film, DimEstimatesAreRoundedToSteps) {
+  Film film(small_settings(), FilmLayout::of_routes({"all"}));
+  for (int i = 0; i < 100; ++i)
+    add_one(film, 0, 2, 1, {i % 2 == 0 ? 2e-7f : 0, i % 2 == 0 ? 2e-8f : 0, 1e-10f});
+  film.add_estimates(0, 100);
+  EXPECT_NEAR(film.value(2, 1).r, 1e-7f, 0x1p-45f);
+  EXPECT_NEAR(film.value(2, 1).g, 1e-8f, 0x1p-45f);
+  EXPECT_NEAR(film.value(2, 1).b, 1e-10f, 0x1p-45f);
+  // Squares have steps of 2^-48: below 2^-24.5 an error is not seen.
+  EXPECT_NEAR(film.standard_error(2, 1).r, 1e-8f, 5e-10f);
+  EXPECT_EQ(film.standard_error(2, 1).g, 0);
 }
 
 TEST(Film, EmptyCropIsTheWholePicture) {

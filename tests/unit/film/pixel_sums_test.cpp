@@ -139,7 +139,33 @@ TEST(PixelSums, WordsAndCarriesAreAllThereIs) {
   EXPECT_LE(sums.save_carries().size(), sums.most_carry_words());
   EXPECT_THROW(loaded.load_carries(std::vector<uint32_t>{4, 0, 0, 0, 0, 0, 1}), IoError);
   EXPECT_THROW(loaded.load_carries(std::vector<uint32_t>{1, 0, 0}), IoError);
-  EXPECT_THROW(loaded.load_carries(std::vector<uint32_t>{1, 0, 0, 0, 1u << 31, 0, 0}), IoError);
+}
+
+TEST(PixelSums, CarriesAreWithinTheLimit) {
+  const auto words = [](int64_t carry) {
+    const auto bits = static_cast<uint64_t>(carry);
+    return std::vector<uint32_t>{
+        1, static_cast<uint32_t>(bits), static_cast<uint32_t>(bits >> 32), 0, 0, 0, 0};
+  };
+  for (const int bits : {PixelSums::kColorBits, PixelSums::kSquareBits}) {
+    const int64_t most = int64_t{1} << (bits - 2);
+    PixelSums sums(2, bits), same_steps(2, bits);
+    for (const int64_t carry : {most + 1, -most - 1, std::numeric_limits<int64_t>::min()})
+      EXPECT_THROW(sums.load_carries(words(carry)), IoError) << bits;
+    sums.load_carries(words(-most));
+    EXPECT_EQ(red(sums, 1), -0x1p62);
+    EXPECT_TRUE(same_steps.add(1, sums));
+    EXPECT_FALSE(same_steps.add(1, sums));
+    EXPECT_EQ(red(same_steps, 1), -0x1p62);
+  }
+}
+
+TEST(PixelSums, TakesAnySumOfColours) {
+  PixelSums sums(1);
+  RgbSum least;
+  least.rgb[0].bits = FixedSum::Bits{1} << 127;
+  EXPECT_FALSE(sums.add(0, least));
+  EXPECT_EQ(red(sums, 0), -0x1p62);
 }
 
 TEST(PixelSums, ThreadsMayUseDifferentPixels) {
