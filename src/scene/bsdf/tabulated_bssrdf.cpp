@@ -6,6 +6,9 @@
 namespace nephroid {
 namespace {
 
+/// Mean free paths up to which the profile is taken as constant. It has a value at radius 0, though
+/// its integral around a circle vanishes there.
+constexpr float kInnermost = 1e-6f;
 /// Shares of probes along the two tangents and the normal.
 constexpr float kAxisShare[3] = {0.25f, 0.25f, 0.5f};
 
@@ -30,9 +33,9 @@ TabulatedBssrdf::TabulatedBssrdf(const Vec3f& p, const Vec3f& ns, const SampledS
 }
 
 float TabulatedBssrdf::profile(int i, float r) const {
-  const float optical = r * sigma_t_[i];
+  const float optical = std::max(r * sigma_t_[i], kInnermost);
   const float density = table_->radial_density(albedo_[i], optical);
-  if (!(density > 0.0f) || !(optical > 0.0f)) return 0.0f;
+  if (!(density > 0.0f)) return 0.0f;
   return density / (2.0f * kPi * optical) * sqr(sigma_t_[i]);
 }
 

@@ -179,6 +179,21 @@ TEST(SubsurfaceWalk, SphereGivesTheIntegralOverTheSphere) {
   }
 }
 
+TEST(SubsurfaceWalk, ProbesThroughTheEntryItselfHaveADensity) {
+  // The exits are the entry and the opposite point: both are at distance 0 from the middle of the
+  // probe, where the density was once taken as 0 and weights were millions.
+  const Entry e(kColoured + "Shape \"sphere\" \"float radius\" 0.5\n", {0, 3, 0}, {0, -1, 0});
+  for (const float u_choice : {0.2f, 0.8f}) {
+    const auto exit =
+        find_subsurface_exit(*e.scene, e.hit, *e.material, *e.bssrdf, 0.7f, {0.0f, 0.3f}, u_choice);
+    ASSERT_TRUE(exit);
+    for (int i = 0; i < kSpectrumSamples; ++i) EXPECT_LT(exit->weight[i], 30) << u_choice;
+  }
+  for (int i = 0; i < kSpectrumSamples; ++i)
+    EXPECT_NEAR(e.bssrdf->profile(i, 0), e.bssrdf->profile(i, 1e-5f),
+                0.01f * e.bssrdf->profile(i, 0));
+}
+
 TEST(SubsurfaceWalk, OtherThingsAlongTheProbeDoNotMatter) {
   const std::string clutter = "Material \"diffuse\"\n" + quad(300, 0.07f) + quad(300, -0.03f) +
                               "Material \"interface\"\n" + quad(300, 0.02f) +
