@@ -124,10 +124,15 @@ void CurveShape::add(const CurveSegment& s) {
   double length = 0.0;
   for (size_t i = 0; i < 3; ++i) length += (whole[i + 1] - whole[i]).length();
   if (!(length > 0.0)) return;
-  constexpr int kMaxPieces = 128;
-  const double parts = parts_needed(whole, std::max(s.width0, s.width1) / 40.0);
+  // Errors of a fortieth of the width show in thick curves, for which eight pieces are no cost.
+  constexpr int kMaxPieces = 128, kMaxFinePieces = 8;
+  const double width = std::max(s.width0, s.width1);
+  const double parts = parts_needed(whole, width / 40.0);
+  const double fine_parts = parts_needed(whole, width / 400.0);
   int pieces = 1;
-  while (pieces < kMaxPieces && pieces * kPartsPerPiece < parts) pieces *= 2;
+  while ((pieces < kMaxPieces && pieces * kPartsPerPiece < parts) ||
+         (pieces < kMaxFinePieces && pieces * kPartsPerPiece < fine_parts))
+    pieces *= 2;
   for (int i = 0; i < pieces; ++i) {
     const Range range{static_cast<float>(i) / static_cast<float>(pieces),
                       static_cast<float>(i + 1) / static_cast<float>(pieces)};
