@@ -37,8 +37,10 @@ std::optional<PhotonArrival> arrival_at(const WalkVertex& vertex, const Photon& 
   // plane if the surface is curved.
   const float agree = dot(ng, vertex.surface.ng) < 0.0f ? -1.0f : 1.0f;
   const Vec3f wi = photon.wi.unpacked();
+  // Packing moves directions by up to 1e-4, so the cosine of a grazing photon is not known.
+  constexpr float kMinCosine = 1e-3f;
   const float arrives = dot(wi, ng) * agree;
-  if (!(std::abs(arrives) > 0.0f)) return std::nullopt;
+  if (!(std::abs(arrives) > kMinCosine)) return std::nullopt;
   PhotonArrival arrival{vertex.to_local(wi), std::abs(arrives)};
   if (arrival.wi.z * arrives < 0.0f) arrival.wi.z = -arrival.wi.z;
   return arrival;

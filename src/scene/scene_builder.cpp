@@ -249,7 +249,12 @@ class SceneBuilder {
     if (!(scene_->sphere.radius > 0)) scene_->sphere.radius = 1;
     const SourceLocation file{std::make_shared<const std::string>(d_.file), 0, 0};
     check_size(file);
-    for (const LightPtr& light : scene_->lights) light->set_scene_sphere(scene_->sphere);
+    const bool fog = std::ranges::any_of(
+        scene_->media, [](const MediumPtr& medium) { return !medium->is_purely_absorbing(); });
+    for (const LightPtr& light : scene_->lights) {
+      light->set_scene_sphere(scene_->sphere);
+      if (fog) light->leave_out_nothing();
+    }
     surround_infinite_lights(*scene_, d_, *media_);
     scene_->light_sampler = std::make_unique<LightSampler>(scene_->lights);
     inside_out_.report(scene_->top, scene_->camera->camera_to_world(0.0f).point(Vec3f(0, 0, 0)),

@@ -58,6 +58,18 @@ TEST_P(MediumPhotonsIn, FindWhatWalksAloneFind) {
                of.pictures(camera_paths_only(), 1000, 320), GetParam().name);
 }
 
+// Without fog, light samples leave the dim part of a sky to walks.
+TEST_P(MediumPhotonsIn, FindTheLightOfASky) {
+  const CasterPictures of{PairView(in_fog(GetParam(), R"(
+    LightSource "infinite" "string filename" "../scenes/gallery/sky.pfm"
+    Material "diffuse" "rgb reflectance" [0.7 0.5 0.3]
+    AttributeBegin Translate -0.5 0.6 0 Shape "sphere" "float radius" 0.5 AttributeEnd)"))};
+  PairTechniques gathering = gathering_in_media();
+  gathering.light_paths *= 4;  // few of them meet the fog
+  expect_equal(of.pictures(gathering, 1, 16), of.pictures(camera_paths_only(), 1000, 320),
+               GetParam().name);
+}
+
 TEST(MediumPhotonsInUnevenFog, FindWhatWalksFindBehindGlass) {
   // The camera looks through a pane of glass, and the fog scatters what a mirror sends.
   const CasterPictures of{PairView(in_fog(kFogs[1], R"(

@@ -1,7 +1,7 @@
 // The infinite light with an image: a map of the sphere (sphere_map.h), constant within each pixel,
 // so its density by pixel means is exact. Next-event estimation samples only radiance above the
-// average and leaves the rest to BSDF sampling (MIS compensation: Karlik et al. 2019). Photons
-// start in proportion to the whole radiance.
+// average and leaves the rest to BSDF sampling (MIS compensation: Karlik et al. 2019), but not in
+// scenes with scattering media. Photons start in proportion to the whole radiance.
 #include "core/parallel.h"
 #include "scene/light/direction_map.h"
 #include "scene/light/infinite_emission.h"
@@ -91,6 +91,7 @@ class ImageInfiniteLight final : public Light {
   }
   std::optional<LightBounds> bounds() const override { return std::nullopt; }
   void set_scene_sphere(const SceneSphere& sphere) override { sphere_ = sphere; }
+  void leave_out_nothing() override { direct_ = distribution_; }
 
  private:
   struct Direction {

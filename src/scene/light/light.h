@@ -121,6 +121,9 @@ class Light {
   virtual std::optional<LightBounds> bounds() const = 0;
   /// Called once before rendering, when the extent of the scene is known.
   virtual void set_scene_sphere(const SceneSphere&) {}
+  /// Lets sample_towards find all light from now on. For scenes with scattering media: where
+  /// photons are merged in them, no BSDF sampling finds what it leaves out ([V8]).
+  virtual void leave_out_nothing() {}
 };
 using LightPtr = std::unique_ptr<Light>;
 

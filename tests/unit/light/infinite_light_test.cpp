@@ -162,6 +162,17 @@ TEST_F(ImageInfiniteLight, DirectionsFollowThePixels) {
   EXPECT_GT(chi_square_test(observed, expected), 1e-4);
 }
 
+TEST_F(ImageInfiniteLight, LeavesOutNothingInScenesWithFog) {
+  const LightPtr light = make();
+  const std::vector<double> above = above_average();
+  const Vec3f dim = equal_area_square_to_sphere({1.5f / kSize, 0.5f / kSize});
+  ASSERT_EQ(above[1], 0);
+  EXPECT_EQ(light->pdf_towards({0, 0, 0}, dim, {}, {}), 0);
+  light->leave_out_nothing();
+  EXPECT_NEAR(light->pdf_towards({0, 0, 0}, dim, {}, {}), values[1] / total() * kPixels * kInv4Pi,
+              1e-4 * values[1] / total() * kPixels);
+}
+
 TEST_F(ImageInfiniteLight, DensityAndRadianceAreThoseOfThePixel) {
   const LightPtr light = make();
   const std::vector<double> above = above_average();
