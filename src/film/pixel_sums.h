@@ -22,9 +22,10 @@ class PixelSums {
  public:
   /// Low 64 bits of the components, as a signed number.
   using Words = std::array<int64_t, 3>;
-  static constexpr size_t kBytesPerPixel = sizeof(Words);                   ///< without carries
-  static constexpr size_t kCarryBytesPerPixel = 3 * sizeof(int64_t);        ///< where there are any
-  static constexpr size_t kSavedCarryBytesPerPixel = 7 * sizeof(uint32_t);  ///< of save_carries()
+  /// Memory of a pixel, what a carry adds to it, and what that takes in save_carries().
+  static constexpr size_t kBytesPerPixel = sizeof(Words);
+  static constexpr size_t kCarryBytesPerPixel = 3 * sizeof(int64_t);
+  static constexpr size_t kSavedCarryBytesPerPixel = 7 * sizeof(uint32_t);
   /// Fractional bits for colours. A float from 2^-21 on is a multiple of such a step, and sums up
   /// to 2^19 have no carry.
   static constexpr int kColorBits = 44;

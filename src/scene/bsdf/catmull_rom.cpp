@@ -16,27 +16,15 @@ HermiteBasis value_basis(float t) {
 
 // Slopes are differences of values, so everything is a combination of values.
 SplineWeights combine(std::span<const float> x, int i, const HermiteBasis& b) {
-  const size_t k = i;
-  const float width = x[k + 1] - x[k];
   SplineWeights s;
   s.first = i - 1;
   s.w = {0.0f, b.f0, b.f1, 0.0f};
-  if (k > 0) {
-    const float slope = b.d0 * width / (x[k + 1] - x[k - 1]);
-    s.w[0] -= slope;
-    s.w[2] += slope;
-  } else {
-    s.w[1] -= b.d0;
-    s.w[2] += b.d0;
-  }
-  if (k + 2 < x.size()) {
-    const float slope = b.d1 * width / (x[k + 2] - x[k]);
-    s.w[1] -= slope;
-    s.w[3] += slope;
-  } else {
-    s.w[1] -= b.d1;
-    s.w[2] += b.d1;
-  }
+  const auto add = [&](float d, const SplineSlope& slope) {
+    s.w[slope.to - s.first] += d * slope.scale;
+    s.w[slope.from - s.first] -= d * slope.scale;
+  };
+  add(b.d0, slope_at_start(x, i));
+  add(b.d1, slope_at_end(x, i));
   return s;
 }
 

@@ -35,18 +35,34 @@ std::optional<int> spline_interval(std::span<const float> x, float at);
 /// Weights of the spline's value at `at`. Empty outside of the points.
 std::optional<SplineWeights> spline_value(std::span<const float> x, float at);
 
+/// The slope at an end of an interval times the interval's width:
+/// scale * (value(to) - value(from)).
+struct SplineSlope {
+  int from = 0, to = 0;
+  float scale = 1;
+};
+/// The slope at the start of interval `i`, and at its end.
+inline SplineSlope slope_at_start(std::span<const float> x, int i) {
+  const size_t k = i;
+  if (k == 0) return {i, i + 1, 1.0f};
+  return {i - 1, i + 1, (x[k + 1] - x[k]) / (x[k + 1] - x[k - 1])};
+}
+inline SplineSlope slope_at_end(std::span<const float> x, int i) {
+  const size_t k = i;
+  if (k + 2 == x.size()) return {i, i + 1, 1.0f};
+  return {i, i + 2, (x[k + 1] - x[k]) / (x[k + 2] - x[k])};
+}
+
 /// The spline on one interval: a cubic in the share t in [0,1] of the interval.
 class SplineSegment {
  public:
   /// Interval `i` of the points `x`; value(k) is the value at point k.
   template <class Value>
   SplineSegment(std::span<const float> x, int i, Value&& value) {
-    const size_t k = i;
-    width_ = x[k + 1] - x[k];
+    width_ = x[i + 1] - x[i];
+    const auto of = [&](const SplineSlope& s) { return s.scale * (value(s.to) - value(s.from)); };
     const float begin = value(i), end = value(i + 1);
-    const float first = k > 0 ? (end - value(i - 1)) * width_ / (x[k + 1] - x[k - 1]) : end - begin;
-    const float last =
-        k + 2 < x.size() ? (value(i + 2) - begin) * width_ / (x[k + 2] - x[k]) : end - begin;
+    const float first = of(slope_at_start(x, i)), last = of(slope_at_end(x, i));
     c_ = {begin, first, 3 * (end - begin) - 2 * first - last, 2 * (begin - end) + first + last};
   }
   float value(float t) const { return ((c_[3] * t + c_[2]) * t + c_[1]) * t + c_[0]; }

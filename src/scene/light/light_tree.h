@@ -58,7 +58,7 @@ class LightTree {
   struct Turn {
     uint32_t slot = 0;
     float importance = 0;
-    double probability = 0;  ///< that a sample reaches this node
+    double probability = 0;  ///< chance that a sample reaches this node
   };
 
   /// `light_count` is one more than the largest Item::light.

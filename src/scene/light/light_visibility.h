@@ -29,8 +29,8 @@ inline constexpr double kUnlearned = 0.1;
 
 /// Both probabilities of one choice.
 struct ChoiceProbability {
-  double plain = 1;    ///< in proportion to the importance of the lights
-  double learned = 1;  ///< in proportion to importance times the learned share that arrives
+  double plain = 1;    ///< lights are chosen by importance
+  double learned = 1;  ///< lights are chosen by importance times what was learned to arrive
   /// [D5] The probability if a part of the choices is plain.
   double mixed() const { return kUnlearned * plain + (1 - kUnlearned) * learned; }
   ChoiceProbability& operator*=(const ChoiceProbability& next) {

@@ -120,6 +120,13 @@ TEST(Merge, SumsFluxTimesTheBsdf) {
   expect_spectrum(m.reflected, ramp() * (2 * kReflectance * kInvPi), "two photons");
 }
 
+TEST(Merge, PhotonsAlongTheSurfaceDoNotCount) {
+  // Packing changes their cosine by a large part, or its sign.
+  const VisiblePoint point;
+  EXPECT_EQ(point.merge({photon_from({1, 0, 5e-4f}), photon_from({1, 0, -5e-4f})}).found, 0u);
+  EXPECT_EQ(point.merge({photon_from(normalize(Vec3f(1, 0, 5e-3f)))}).found, 1u);
+}
+
 TEST(Merge, PhotonsBeyondTheRadiusDoNotCount) {
   const VisiblePoint point;
   Photon inside = photon_from({0, 0, 1}), outside = inside;
