@@ -17,25 +17,28 @@ std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at
   const Light& light = *scene.lights[choice.light];
   const std::optional<LightSample> s = light.sample_towards(at.p, u, lambda);
   if (!s || !(s->pdf_w > 0.0f) || s->radiance.is_black()) return std::nullopt;
+  return direct_sample(at, choice.light, *s, choice.pdf_p * s->pdf_w);
+}
+
+DirectSample direct_sample(const Receiver& at, int light, const LightSample& s, float pdf_w) {
   DirectSample d;
-  d.light = choice.light;
-  d.pdf_w = choice.pdf_p * s->pdf_w;
-  d.radiance = s->radiance / d.pdf_w;
-  d.wi_world = s->wi;
-  d.delta = s->delta;
-  d.p = s->p;
-  d.ng = s->ng;
-  d.medium = at.surface ? medium_towards(*at.surface, s->wi, at.medium) : at.medium;
+  d.light = light;
+  d.pdf_w = pdf_w;
+  d.radiance = s.radiance / pdf_w;
+  d.wi_world = s.wi;
+  d.delta = s.delta;
+  d.p = s.p;
+  d.ng = s.ng;
+  d.medium = at.surface ? medium_towards(*at.surface, s.wi, at.medium) : at.medium;
   // Both ends are offset by their own error bounds. The margin on t_max keeps the ray from reaching
   // the emitter itself.
-  d.shadow_ray.o = at.surface ? at.surface->spawn_origin(s->wi) : at.p;
+  d.shadow_ray.o = at.surface ? at.surface->spawn_origin(s.wi) : at.p;
   d.shadow_ray.time = at.time;
-  if (s->infinite) {
-    d.shadow_ray.d = s->wi;
+  if (s.infinite) {
+    d.shadow_ray.d = s.wi;
     return d;
   }
-  const Vec3f end =
-      length_squared(s->ng) > 0 ? offset_ray_origin(s->p, s->p_error, s->ng, -s->wi) : s->p;
+  const Vec3f end = length_squared(s.ng) > 0 ? offset_ray_origin(s.p, s.p_error, s.ng, -s.wi) : s.p;
   d.shadow_ray.d = end - d.shadow_ray.o;
   d.shadow_ray.t_max = 1.0f - 1e-5f;
   return d;

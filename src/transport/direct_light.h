@@ -44,6 +44,9 @@ std::optional<DirectSample> sample_direct(const Scene& scene, const Receiver& at
                                           LightChoice choice, const Vec2f& u,
                                           const SampledWavelengths& lambda);
 
+/// The light sample of light number `light`, with the density `pdf_w` of both.
+DirectSample direct_sample(const Receiver& at, int light, const LightSample& sample, float pdf_w);
+
 /// Transmittance from a vertex to its light sample, media included, with the densities of both
 /// techniques ([V5]). Random numbers come from the sampler's current dimension.
 ShadowFlight trace_shadow(const Scene& scene, const DirectSample& direct,

@@ -96,45 +96,36 @@ std::optional<PointAndLight> sample_point(const LightSampler& lights, const Ray&
   return s;
 }
 
-/// The light of the sample at the point, not yet scattered.
-std::optional<FlightLight> light_at(const Scene& scene, const Medium& medium, const Walk& walk,
-                                    float t, HenyeyGreenstein phase, LightChoice choice,
-                                    const Vec2f& u) {
-  FlightLight found{
-      {medium, walk.ray.o + walk.ray.d * t, -walk.ray.d, phase, walk.ray.time}, {}, {}, {}};
-  const auto direct =
-      sample_direct(scene, Receiver::of(found.vertex, &medium), choice, u, walk.lambda);
-  if (!direct) return std::nullopt;
-  found.direct = *direct;
-  return found;
+/// A point of the flight that scatters light of a light chosen for it.
+struct FlightPoint {
+  MediumVertex vertex;
+  LightChoice light;
+  float scale;                 ///< of the light's radiance
+  SampledSpectrum throughput;  ///< as in FlightLight
+  SampledSpectrum collision;   ///< as in FlightLight
+};
+
+MediumVertex vertex_at(const Medium& medium, const Walk& walk, float t, HenyeyGreenstein phase) {
+  return {medium, walk.ray.o + walk.ray.d * t, -walk.ray.d, phase, walk.ray.time};
 }
 
-std::optional<FlightLight> sample_collision_light(const Scene& scene, const Medium& medium,
-                                                  const Walk& walk, float t_max,
-                                                  FlightRandom& random, float u_light,
-                                                  const Vec2f& u) {
+std::optional<FlightPoint> sample_collision(const Scene& scene, const Medium& medium,
+                                            const Walk& walk, float t_max, FlightRandom& random,
+                                            float u_light) {
   assert(walk.per_wavelength);
   SampledSpectrum throughput = walk.throughput;
   const std::optional<Collision> collision =
       fly_per_wavelength(medium, walk.ray, t_max, walk.lambda, random, throughput);
   if (!collision) return std::nullopt;
-  const auto choice =
-      scene.light_sampler->sample(walk.ray.o + walk.ray.d * collision->t, Vec3f(0, 0, 0), u_light);
+  const MediumVertex vertex = vertex_at(medium, walk, collision->t, collision->phase);
+  const auto choice = scene.light_sampler->sample(vertex.p, Vec3f(0, 0, 0), u_light);
   if (!choice) return std::nullopt;
-  auto found = light_at(scene, medium, walk, collision->t, collision->phase, *choice, u);
-  if (!found) return std::nullopt;
-  found->throughput = throughput;
-  found->collision = SampledSpectrum(1.0f);
-  return found;
+  return FlightPoint{vertex, *choice, 1.0f, throughput, SampledSpectrum(1.0f)};
 }
 
-}  // namespace
-
-std::optional<FlightLight> sample_flight_light(const Scene& scene, const Medium& medium,
-                                               const Walk& walk, float t_max, FlightRandom& random,
-                                               float u_light, const Vec2f& u) {
-  if (!samples_light_along(medium, walk.lambda))
-    return sample_collision_light(scene, medium, walk, t_max, random, u_light, u);
+std::optional<FlightPoint> sample_anywhere(const Scene& scene, const Medium& medium,
+                                           const Walk& walk, float t_max, FlightRandom& random,
+                                           float u_light) {
   const MediumProperties m = medium.at(walk.ray.o, walk.lambda);
   const SampledSpectrum sigma_t = m.sigma_a + m.sigma_s;
   const CollisionDistances collisions(sigma_t, t_max, walk.lambda.left());
@@ -142,13 +133,44 @@ std::optional<FlightLight> sample_flight_light(const Scene& scene, const Medium&
   const std::optional<PointAndLight> s =
       sample_point(*scene.light_sampler, walk.ray, t_max, collisions, random, u_light);
   if (!s) return std::nullopt;
-  auto found = light_at(scene, medium, walk, s->t, m.phase, s->light, u);
-  if (!found) return std::nullopt;
-  found->direct.radiance *= s->light.pdf_p / s->density;
   const SampledSpectrum through = sigma_t.map([&](float sigma) { return std::exp(-sigma * s->t); });
-  found->throughput = walk.throughput * through * m.sigma_s;
-  found->collision =
-      walk.per_wavelength ? SampledSpectrum(1.0f) : walk.density.u * through * sigma_t;
+  return FlightPoint{
+      vertex_at(medium, walk, s->t, m.phase), s->light, s->light.pdf_p / s->density,
+      walk.throughput * through * m.sigma_s,
+      walk.per_wavelength ? SampledSpectrum(1.0f) : walk.density.u * through * sigma_t};
+}
+
+}  // namespace
+
+FlightLights sample_flight_light(const Scene& scene, const Medium& medium, const Walk& walk,
+                                 float t_max, FlightRandom& random, FlightTechniques techniques,
+                                 float u_light, const Vec2f& u) {
+  const std::optional<FlightPoint> at =
+      samples_light_along(medium, walk.lambda)
+          ? sample_anywhere(scene, medium, walk, t_max, random, u_light)
+          : sample_collision(scene, medium, walk, t_max, random, u_light);
+  FlightLights found;
+  if (!at || at->throughput.is_black()) return found;
+  const MediumVertex& vertex = at->vertex;
+  const Receiver receiver = Receiver::of(vertex, &medium);
+  const auto take = [&](std::optional<FlightLight>& place, DirectSample direct, float weight) {
+    direct.radiance *= at->scale * weight;
+    place.emplace(FlightLight{vertex, direct, at->throughput, at->collision});
+  };
+  const Light& light = *scene.lights[at->light.light];
+  const bool both = techniques == FlightTechniques::kLightAndPhase && light.has_whole_surface();
+  if (const auto direct = sample_direct(scene, receiver, at->light, u, walk.lambda)) {
+    const float pdf_w = direct->pdf_w / at->light.pdf_p;
+    const float of_phase = both ? vertex.phase.eval(vertex.wo, direct->wi_world) : 0.0f;
+    take(found[0], *direct, pdf_w / (pdf_w + of_phase));
+  }
+  if (!both) return found;
+  const PhaseSample phase = vertex.phase.sample(vertex.wo, {random.next(), random.next()});
+  if (!(phase.pdf_w > 0.0f)) return found;
+  const auto seen = light.seen_along(vertex.p, phase.wi, vertex.time, walk.lambda);
+  if (!seen) return found;
+  const float pdf_w = at->light.pdf_p * (seen->pdf_w + phase.pdf_w);
+  take(found[1], direct_sample(receiver, at->light.light, *seen, pdf_w), 1.0f);
   return found;
 }
 

@@ -3,6 +3,8 @@
 // know routes or films.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 
 #include "transport/direct_light.h"
@@ -22,12 +24,21 @@ inline bool samples_light_along(const Medium& medium, const SampledWavelengths& 
   return medium.uniform_extinction(lambda).has_value();
 }
 
+/// Light samples at one point of a flight: of next-event estimation, and of the phase function.
+using FlightLights = std::array<std::optional<FlightLight>, 2>;
+
+/// How the light of a point is found.
+enum class FlightTechniques : uint8_t {
+  kLight,          ///< by next-event estimation, without a weight
+  kLightAndPhase,  ///< also in a direction of the phase function; the two have weights [V9]
+};
+
 /// Samples a point on the walk's next flight, up to `t_max`, which may be infinite, then a light
 /// and a point on it. In a medium that varies in space the point is a collision, and the walk must
-/// keep its wavelengths apart. The first of the `random` numbers chooses the point, `u_light` and
-/// `u` the light. Empty if no light can arrive.
-std::optional<FlightLight> sample_flight_light(const Scene& scene, const Medium& medium,
-                                               const Walk& walk, float t_max, FlightRandom& random,
-                                               float u_light, const Vec2f& u);
+/// keep its wavelengths apart. `random` chooses the point and the direction of the phase function,
+/// `u_light` and `u` the light. Empty where no light can arrive.
+FlightLights sample_flight_light(const Scene& scene, const Medium& medium, const Walk& walk,
+                                 float t_max, FlightRandom& random, FlightTechniques techniques,
+                                 float u_light, const Vec2f& u);
 
 }  // namespace nephroid

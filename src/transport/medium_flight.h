@@ -12,6 +12,12 @@
 
 namespace nephroid {
 
+/// `u` in [0,1) moved by a distance around a circle of length 1, or mirrored: again in [0,1).
+inline float turned(float u, float by) {
+  return std::min(u + by - std::floor(u + by), kOneMinusEpsilon);
+}
+inline float mirrored(float u) { return std::min(1.0f - u, kOneMinusEpsilon); }
+
 /// Random numbers of one flight: the first is stratified, all others come from a hash.
 class FlightRandom {
  public:

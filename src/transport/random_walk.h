@@ -93,13 +93,12 @@ class RandomWalk {
       const uint64_t seed = sampler_.stream_seed();
       const float u = sampler_.get_1d();
       flight_random_ = FlightRandom(u, seed);
-      constexpr uint64_t kLight = 0x6c69676874;  // "light"
-      light_random_ = FlightRandom(mirrored(u), hash_combine(seed, kLight));
+      constexpr uint64_t kLights = 0x6c69676874;  // "light"
+      light_random_ = FlightRandom(mirrored(u), hash_combine(seed, kLights));
     }
     if constexpr (requires { visitor_.gathers_in(medium); })
       if (walk_.events < max_events_ && visitor_.gathers_in(medium)) {
-        constexpr int kSamples = 4;
-        if (visitor_.looks_along(medium)) light_along(medium, distance, kSamples);
+        if (visitor_.looks_along(medium)) light_along(medium, distance, kLightAndPhase, 4);
         FlightRandom random = flight_random_.fork();
         visitor_.gather_along(walk_, medium, distance, random);
       }
@@ -115,7 +114,8 @@ class RandomWalk {
       walk_.throughput *= through;
       return std::nullopt;
     }
-    if (walk_.events < max_events_ && is_lit_along(medium)) light_along(medium, distance, 1);
+    if (walk_.events < max_events_ && is_lit_along(medium))
+      light_along(medium, distance, kLight, 1);
     if (walk_.per_wavelength)
       return fly_per_wavelength(medium, walk_.ray, distance, walk_.lambda, flight_random_,
                                 walk_.throughput);
@@ -134,8 +134,9 @@ class RandomWalk {
     return false;
   }
 
+  using enum FlightTechniques;
   /// [V7] Direct light that the medium scatters into the flight, at so many points.
-  void light_along(const Medium& medium, float distance, int samples) {
+  void light_along(const Medium& medium, float distance, FlightTechniques how, int points) {
     if constexpr (requires { visitor_.looks_along(medium); }) {
       // Mirrored, as the vertex at the end of the flight uses the same numbers.
       const int first = walk_.vertex_dimension() + dimensions::kLight;
@@ -143,27 +144,24 @@ class RandomWalk {
       const float u_light = mirrored(sampler_.get_1d());
       const Vec2f u = sampler_.get_2d();
       const float u_point = light_random_.next();
-      for (int k = 0; k < samples; ++k) {
+      for (int k = 0; k < points; ++k) {
         const auto n = static_cast<float>(k);
-        FlightRandom random = light_random_.fork((n + u_point) / static_cast<float>(samples));
+        FlightRandom random = light_random_.fork((n + u_point) / static_cast<float>(points));
         light_random_.next();
         // An additive recurrence spreads the points over all lights (R3 of Roberts 2018).
-        const auto light = sample_flight_light(
-            scene_, medium, walk_, distance, random, turned(u_light, n * 0.8191725f),
+        const FlightLights lights = sample_flight_light(
+            scene_, medium, walk_, distance, random, how, turned(u_light, n * 0.8191725f),
             {turned(mirrored(u.x), n * 0.6710436f), turned(mirrored(u.y), n * 0.5497005f)});
-        if (!light || light->throughput.is_black()) continue;
-        Walk there = walk_;
-        there.throughput = light->throughput / static_cast<float>(samples);
-        sampler_.start_dimension(first + k);  // other random numbers for each shadow ray
-        visitor_.light_along(there, *light, sampler_);
+        sampler_.start_dimension(first + k);  // other random numbers for the shadow rays of a point
+        for (const std::optional<FlightLight>& light : lights) {
+          if (!light) continue;
+          Walk there = walk_;
+          there.throughput = light->throughput / static_cast<float>(points);
+          visitor_.light_along(there, *light, sampler_);
+        }
       }
     }
   }
-  /// A number in [0,1), moved around.
-  static float turned(float u, float by) {
-    return std::min(u + by - std::floor(u + by), kOneMinusEpsilon);
-  }
-  static float mirrored(float u) { return std::min(1.0f - u, kOneMinusEpsilon); }
 
   bool scatter_in_medium(const Collision& collision) {
     if (walk_.events >= max_events_) return false;

@@ -50,17 +50,24 @@ class DiffuseAreaLight final : public Light {
     if (!point || !(point->pdf > 0.0f)) return std::nullopt;
     const Vec3f d = point->p - from;
     if (!(length_squared(d) > 0.0f)) return std::nullopt;
-    LightSample s;
-    s.wi = normalize(d);
-    if (!emits_towards(point->ng, -s.wi)) return std::nullopt;
-    s.radiance = emission_->at(point->uv, lambda) * (scale_ * coverage(*point));
-    if (s.radiance.is_black()) return std::nullopt;
-    s.pdf_w = point->pdf;
-    s.p = point->p;
-    s.p_error = point->p_error;
-    s.ng = point->ng;
-    s.delta = emission_->invisible;
-    return s;
+    return light_of(*point, normalize(d), lambda);
+  }
+
+  bool has_whole_surface() const override { return !emission_->alpha && !emission_->invisible; }
+
+  std::optional<LightSample> seen_along(const Vec3f& from, const Vec3f& wi, float time,
+                                        const SampledWavelengths& lambda) const override {
+    if (!has_whole_surface()) return std::nullopt;
+    Ray ray;
+    ray.o = from;
+    ray.d = wi;
+    ray.time = time;
+    const auto hit = shape_->intersect(primitive_, ray, 0.0f);
+    if (!hit) return std::nullopt;
+    SurfaceInteraction at;
+    shape_->fill(primitive_, hit->uv, ray, hit->t, at);
+    return light_of({at.p, at.p_error, at.ng, at.uv, pdf_towards(from, wi, at.p, at.ng)}, wi,
+                    lambda);
   }
 
   float pdf_towards(const Vec3f& from, const Vec3f&, const Vec3f& p,
@@ -130,6 +137,21 @@ class DiffuseAreaLight final : public Light {
   }
 
  private:
+  /// The light of a point, whose pdf is pdf_w, seen in unit direction `wi`.
+  std::optional<LightSample> light_of(const ShapeSample& point, const Vec3f& wi,
+                                      const SampledWavelengths& lambda) const {
+    if (!emits_towards(point.ng, -wi)) return std::nullopt;
+    LightSample s;
+    s.wi = wi;
+    s.radiance = emission_->at(point.uv, lambda) * (scale_ * coverage(point));
+    if (s.radiance.is_black()) return std::nullopt;
+    s.pdf_w = point.pdf;
+    s.p = point.p;
+    s.p_error = point.p_error;
+    s.ng = point.ng;
+    s.delta = emission_->invisible;
+    return s;
+  }
   bool emits_towards(const Vec3f& ng, const Vec3f& w) const {
     return emission_->two_sided || dot(ng, w) > 0.0f;
   }

@@ -91,6 +91,15 @@ class Light {
   /// can leave out directions that BSDF sampling finds well; pdf_towards is zero there.
   virtual std::optional<LightSample> sample_towards(const Vec3f& from, const Vec2f& u,
                                                     const SampledWavelengths& lambda) const = 0;
+  /// The point that a ray from `from` in unit direction `wi` meets first on the light's surface,
+  /// with pdf_w of sample_towards. Empty if it meets none that shines there, and always if
+  /// has_whole_surface() is false.
+  virtual std::optional<LightSample> seen_along(const Vec3f& /*from*/, const Vec3f& /*wi*/,
+                                                float /*time*/, const SampledWavelengths&) const {
+    return std::nullopt;
+  }
+  /// True if the light has a surface that each ray hits.
+  virtual bool has_whole_surface() const { return false; }
   /// Density pdf_w of sample_towards at `from` for unit direction `wi`. `p` and `ng` are the point
   /// hit on the light (unused by infinite lights). Zero for delta lights.
   virtual float pdf_towards(const Vec3f& from, const Vec3f& wi, const Vec3f& p,
