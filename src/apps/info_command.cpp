@@ -114,8 +114,8 @@ const char* caustics_of(const Scene& scene) {
 void print_integrator(const Scene& scene) {
   const std::string& own = scene.integrator;
   const std::string here = integrator_for_scene_name(own.empty() ? "volpath" : own);
-  fmt::print("integrator that the scene names: {} (rendered by {} with --integrator scene)\n",
-             own.empty() ? "none" : own, here.empty() ? "not available" : here);
+  fmt::print("with --integrator scene: {} (the scene names {})\n",
+             here.empty() ? "not available" : here, own.empty() ? "none" : own);
   fmt::print("pixel samples: {}\n", scene.samples_per_pixel);
 }
 

@@ -74,11 +74,12 @@ std::string render_report(const RenderResult& result, const Film& film, const st
   for (const std::string& fault : result.faults) text += fmt::format("warning: {}\n", fault);
   if (output.empty()) return text;
   if (result.has_state)
-    text +=
-        fmt::format("wrote {}, {} and {}, with which {}\n", output, png_path_beside(output),
-                    state_path_beside(output),
-                    result.has_unfinished_pass ? "--resume goes on (merge takes whole passes only)"
-                                               : "--resume and merge go on");
+    text += fmt::format("wrote {}, {} and {}, with which {}\n", output, png_path_beside(output),
+                        state_path_beside(output),
+                        !result.passes_add_up ? "--resume goes on"
+                        : result.has_unfinished_pass
+                            ? "--resume goes on (merge takes whole passes only)"
+                            : "--resume and merge go on");
   else
     text += fmt::format("wrote {} and {}\n", output, png_path_beside(output));
   return text;

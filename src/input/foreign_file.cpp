@@ -15,7 +15,9 @@ constexpr const char* kObj =
     " (OBJ files are scenes if their names end in .obj; in scenes, meshes are PLY files)";
 constexpr const char* kMesh = " (meshes are read as PLY, by Shape \"plymesh\")";
 constexpr const char* kPly = " (Shape \"plymesh\" \"string filename\" reads it)";
-constexpr const char* kImage = " (images are read by Texture \"imagemap\" and by lights)";
+constexpr const char* kPicture =
+    " (nephroid info describes pictures of renders; a scene's textures and lights read images)";
+constexpr const char* kImage = " (a scene's textures and lights read images)";
 
 struct Format {
   std::string_view mark;  ///< first bytes, or the end of a name
@@ -33,7 +35,7 @@ constexpr Format kFirstBytes[] = {
     {"Ogawa", "an Alembic scene", kScene},
     {"ply\n", "a PLY mesh", kPly},
     {"ply\r", "a PLY mesh", kPly},
-    {"\x76\x2f\x31\x01", "an OpenEXR picture", kImage},
+    {"\x76\x2f\x31\x01", "an OpenEXR picture", kPicture},
     {"\x89PNG", "a PNG picture", kImage},
     {"\xff\xd8\xff", "a JPEG picture", kImage},
     {"#?RADIANCE", "a Radiance HDR picture", kImage},

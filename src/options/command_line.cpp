@@ -27,14 +27,19 @@ void add_option(CLI::App& command, const OptionDescription& row, CommandLine& li
         names, [apply, &line] { apply(line, ""); }, row.help);
     return;
   }
-  const auto apply_all = [apply, &line](const std::vector<std::string>& values) {
+  const bool once = !row.repeatable;
+  const auto apply_all = [apply, once, name = row.name,
+                          &line](const std::vector<std::string>& values) {
+    if (once && values.size() > 1)
+      throw UsageError(fmt::format("{} is given {} times, expected once", name, values.size()));
     for (const std::string& value : values) apply(line, value);
   };
   CLI::Option* option =
       command.add_option_function<std::vector<std::string>>(names, apply_all, row.help);
   // One value per use: without this a list would swallow the scene's name.
   option->type_size(1)->allow_extra_args(row.is_positional() && row.repeatable);
-  option->expected(1, row.repeatable ? CLI::detail::expected_max_vector_size : 1);
+  const bool collects = row.repeatable || !row.is_positional();
+  option->expected(1, collects ? CLI::detail::expected_max_vector_size : 1);
   if (row.is_required()) option->required();
 }
 

@@ -218,7 +218,8 @@ const OptionDescription kOptions[] = {
      [](CommandLine& l, const std::string& t) { l.render.seed = parse_seed("--seed", t); }},
     {"render", "--passes", "", "N|A..B", "passes",
      "the scene's pixel samples, if no other rule is given", "When to stop",
-     "Stop after N passes. A..B renders a range from 0, both ends included.", false,
+     "Stop after N passes. A..B renders pass A to pass B, as a part of a larger render; the first "
+     "pass is 0.", false,
      [](CommandLine& l, const std::string& t) { l.render.passes = parse_passes("--passes", t); }},
     {"render", "--time", "", "TIME", "s, m or h", "no limit", "When to stop",
      "Stop after this time, of all runs (60s, 5m, 1h). If there is no picture by then it waits for "

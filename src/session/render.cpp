@@ -158,7 +158,7 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
     resume(saved, options, scene, set_, *film_, warnings_.output);
   else if (request.resume)
     warn_of(
-        {fmt::format("--resume: there is no {} and no state of it, the render starts anew", saved)},
+        {fmt::format("--resume: there is no {} yet, the render starts at its first pass", saved)},
         warnings_.output);
   else if (const auto warning = warning_of_replacing(options.output, identity_))
     warn_of({*warning}, warnings_.output);

@@ -16,7 +16,9 @@ namespace nephroid {
 inline float turned(float u, float by) {
   return std::min(u + by - std::floor(u + by), kOneMinusEpsilon);
 }
-inline float mirrored(float u) { return std::min(1.0f - u, kOneMinusEpsilon); }
+inline float mirrored(float u) {
+  return std::min(1.0f - u, kOneMinusEpsilon);
+}
 
 /// Random numbers of one flight: the first is stratified, all others come from a hash.
 class FlightRandom {

@@ -55,7 +55,7 @@ TEST_F(CheckpointCommand, WhatIsResumedIsOneRun) {
 
 TEST_F(CheckpointCommand, ResumingNothingIsSaid) {
   expect_said(render("new", {"--passes", "1", "--resume", "--quiet"}),
-              "there is no new.exr and no state of it, the render starts anew");
+              "there is no new.exr yet, the render starts at its first pass");
   EXPECT_EQ(render("new", {"--passes", "2", "--resume", "--quiet"}).errors, "");
 }
 

@@ -31,9 +31,11 @@ void LearnedMix::add_to(EstimatorStatistics& s) const {
                                   100 * plan_.directions.guided()));
   if (plan_.is_even) return;
   const auto note = [&s](const SampleMap& map, const char* what) {
-    s.notes.push_back(
-        fmt::format("{:.3g} {} per pixel and pass on average, {} to {} depending on the tile",
-                    map.mean(), what, map.fewest(), map.most()));
+    const std::string mean = fmt::format("{:.3g} {} per pixel and pass", map.mean(), what);
+    s.notes.push_back(map.fewest() == map.most()
+                          ? mean
+                          : fmt::format("{} on average, {} to {} depending on the tile", mean,
+                                        map.fewest(), map.most()));
   };
   note(plan_.samples.paths, "camera paths");
   if (techniques.separates_chains && plan_.samples.chains.most() > 0)

@@ -61,6 +61,14 @@ TEST(CommandLine, OutliersAreRejectedWhenAskedFor) {
             "-D outlier-neighbours: '1' is not valid, expected a whole number from 2 to 1000");
 }
 
+TEST(CommandLine, OptionsThatDoNotRepeatAreGivenOnce) {
+  EXPECT_EQ(usage_error("render s.pbrt --passes 3 --passes 4"),
+            "--passes is given 2 times, expected once");
+  EXPECT_EQ(usage_error("render s.pbrt -o a.exr --output b.exr"),
+            "--output is given 2 times, expected once");
+  EXPECT_EQ(parse("render -o a.exr s.pbrt").render.scene, "s.pbrt");
+}
+
 TEST(CommandLine, RenderWithEverything) {
   const CommandLine line = parse(
       "render -o out.exr --integrator path --passes 2..5 --time 1.5m --noise 0.01 "
