@@ -159,8 +159,9 @@ class SceneBuilder {
                         "an area light on an \"interface\" material does not emit");
       return;
     }
-    std::vector<LightPtr> lights = make_area_lights(*description.area_light, shape, *d_.files,
-                                                    textures_, record.alpha, diagnostics_);
+    std::vector<LightPtr> lights =
+        make_area_lights(*description.area_light, shape, *d_.files, textures_, record.alpha,
+                         material.transmits_straight(), diagnostics_);
     if (lights.empty()) return;
     record.first_light = static_cast<int>(scene_->lights.size());
     for (LightPtr& light : lights) {

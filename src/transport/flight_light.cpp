@@ -161,8 +161,8 @@ FlightLights sample_flight_light(const Scene& scene, const Medium& medium, const
   const bool both = techniques == FlightTechniques::kLightAndPhase && light.has_whole_surface();
   if (const auto direct = sample_direct(scene, receiver, at->light, u, walk.lambda)) {
     const float pdf_w = direct->pdf_w / at->light.pdf_p;
-    const float of_phase = both ? vertex.phase.eval(vertex.wo, direct->wi_world) : 0.0f;
-    take(found[0], *direct, pdf_w / (pdf_w + of_phase));
+    take(found[0], *direct,
+         both ? pdf_w / (pdf_w + vertex.phase.eval(vertex.wo, direct->wi_world)) : 1.0f);
   }
   if (!both) return found;
   const PhaseSample phase = vertex.phase.sample(vertex.wo, {random.next(), random.next()});

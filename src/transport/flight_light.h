@@ -14,7 +14,7 @@ namespace nephroid {
 /// A point on a flight that scatters the light of a light sample towards the flight's origin.
 struct FlightLight {
   MediumVertex vertex;
-  DirectSample direct;         ///< `radiance` is divided by the density of the point, too
+  DirectSample direct;         ///< `radiance` has the point's density and the weight [V9], too
   SampledSpectrum throughput;  ///< the walk's throughput if it scatters at the point
   SampledSpectrum collision;   ///< r_u of a walk that collides at the point, up to a factor
 };

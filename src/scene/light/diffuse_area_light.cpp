@@ -1,5 +1,7 @@
 // The diffuse area light: a primitive that emits the same radiance in all directions of its
 // outside, or of both sides. The radiance is uniform, or an image over the shape's uv.
+#include <cmath>
+
 #include "core/warps.h"
 #include "scene/light/light_table.h"
 #include "scene/shape/plane_rectangle.h"
@@ -20,6 +22,7 @@ struct AreaEmission {
   bool two_sided = false;
   FloatTexturePtr alpha;   ///< null if the surface is opaque everywhere
   bool invisible = false;  ///< alpha is 0 everywhere: no ray can see or hit the light
+  bool lets_pass = false;  ///< rays may pass through, by alpha or by the material
 
   SampledSpectrum at(const Vec2f& uv, const SampledWavelengths& lambda) const {
     if (!image) return radiance.sample(lambda);
@@ -53,7 +56,7 @@ class DiffuseAreaLight final : public Light {
     return light_of(*point, normalize(d), lambda);
   }
 
-  bool has_whole_surface() const override { return !emission_->alpha && !emission_->invisible; }
+  bool has_whole_surface() const override { return !emission_->lets_pass; }
 
   std::optional<LightSample> seen_along(const Vec3f& from, const Vec3f& wi, float time,
                                         const SampledWavelengths& lambda) const override {
@@ -66,8 +69,10 @@ class DiffuseAreaLight final : public Light {
     if (!hit) return std::nullopt;
     SurfaceInteraction at;
     shape_->fill(primitive_, hit->uv, ray, hit->t, at);
-    return light_of({at.p, at.p_error, at.ng, at.uv, pdf_towards(from, wi, at.p, at.ng)}, wi,
-                    lambda);
+    if (!(length_squared(at.p - from) > 0.0f)) return std::nullopt;
+    const float pdf_w = pdf_towards(from, wi, at.p, at.ng);
+    if (!std::isfinite(pdf_w)) return std::nullopt;
+    return light_of({at.p, at.p_error, at.ng, at.uv, pdf_w}, wi, lambda);
   }
 
   float pdf_towards(const Vec3f& from, const Vec3f&, const Vec3f& p,
@@ -217,7 +222,8 @@ UniformOrImage read_area_emission(const DirectiveDescription& description, Scene
 
 std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, ShapePtr shape,
                                        SceneFiles& files, const TextureLibrary&,
-                                       FloatTexturePtr alpha, Diagnostics& diagnostics) {
+                                       FloatTexturePtr alpha, bool lets_pass,
+                                       Diagnostics& diagnostics) {
   const FormatType& type = area_light_type(description);
   const ParameterSet& p = description.parameters;
   const UniformOrImage e = read_area_emission(description, files);
@@ -231,11 +237,12 @@ std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, 
   const std::optional<float> opacity = alpha ? alpha->constant() : 1.0f;
   const bool invisible = opacity && *opacity <= 0.0f;
   if (invisible || (opacity && *opacity >= 1.0f)) alpha = nullptr;
+  lets_pass |= invisible || alpha;
   const float image_mean =
       e.image ? static_cast<float>(weighted_mean(*e.image, e.factor * (1 / 3.0f))) : 1.0f;
   const auto emission = std::make_shared<const AreaEmission>(
       AreaEmission{EmissionSpectrum(*e.emission.spectrum, e.emission.scale), e.image, placement,
-                   e.factor, image_mean, two_sided, std::move(alpha), invisible});
+                   e.factor, image_mean, two_sided, std::move(alpha), invisible, lets_pass});
 
   std::vector<LightPtr> lights;
   const uint32_t count = shape->primitive_count();

@@ -98,7 +98,7 @@ class Light {
                                                 float /*time*/, const SampledWavelengths&) const {
     return std::nullopt;
   }
-  /// True if the light has a surface that each ray hits.
+  /// True if the light has a surface, and it stops every ray that meets it.
   virtual bool has_whole_surface() const { return false; }
   /// Density pdf_w of sample_towards at `from` for unit direction `wi`. `p` and `ng` are the point
   /// hit on the light (unused by infinite lights). Zero for delta lights.
@@ -142,8 +142,10 @@ using LightPtr = std::unique_ptr<Light>;
 std::vector<LightPtr> make_lights(const SceneDescription& description, Diagnostics& diagnostics);
 
 /// One light per primitive of a shape with an "AreaLightSource" directive. `alpha` may be null.
+/// `lets_pass`: the shape's material may let rays go straight through.
 std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, ShapePtr shape,
                                        SceneFiles& files, const TextureLibrary& textures,
-                                       FloatTexturePtr alpha, Diagnostics& diagnostics);
+                                       FloatTexturePtr alpha, bool lets_pass,
+                                       Diagnostics& diagnostics);
 
 }  // namespace nephroid

@@ -56,7 +56,7 @@ inline std::vector<LightPtr> area_lights_of(const std::string& parameters, const
       directory, d);
   const TextureLibrary textures(scene, d);
   return make_area_lights(*scene.shapes.at(0).area_light, shape, *scene.files, textures,
-                          std::move(alpha), d);
+                          std::move(alpha), false, d);
 }
 inline LightPtr area_light_of(const std::string& parameters, const ShapePtr& shape,
                               FloatTexturePtr alpha = nullptr) {
