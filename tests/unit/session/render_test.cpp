@@ -112,7 +112,7 @@ TEST_F(RenderPage, WhatIsKeptIsSaidInOneLine) {
   request_.options.last_pass = 0;
   render();
   ASSERT_EQ(about_output_.size(), 1u);
-  EXPECT_NE(about_output_[0].find("and no state of it, the render starts anew"), std::string::npos);
+  EXPECT_NE(about_output_[0].find("yet, the render starts at its first pass"), std::string::npos);
   request_.resume = false;
   render();
   ASSERT_EQ(about_output_.size(), 2u);
