@@ -100,7 +100,7 @@ std::optional<PointAndLight> sample_point(const LightSampler& lights, const Ray&
 struct FlightPoint {
   MediumVertex vertex;
   LightChoice light;
-  float scale;                 ///< of the light's radiance
+  float scale;                 ///< factor by which the light's radiance is multiplied
   SampledSpectrum throughput;  ///< as in FlightLight
   SampledSpectrum collision;   ///< as in FlightLight
 };

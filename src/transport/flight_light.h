@@ -29,8 +29,8 @@ using FlightLights = std::array<std::optional<FlightLight>, 2>;
 
 /// How the light of a point is found.
 enum class FlightTechniques : uint8_t {
-  kLight,          ///< by next-event estimation, without a weight
-  kLightAndPhase,  ///< also in a direction of the phase function; the two have weights [V9]
+  kLight,          ///< next-event estimation alone, which needs no weight here
+  kLightAndPhase,  ///< also a direction of the phase function; both have weights [V9]
 };
 
 /// Samples a point on the walk's next flight, up to `t_max`, which may be infinite, then a light
