@@ -154,7 +154,7 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.signal = *reason == StopReason::kSignal ? signals.stop.load() : 0;
   result.passes_done = passes_done_;
   result.has_unfinished_pass = film_.has_open_pass();
-  result.passes_add_up = passes_are_independent(set_) && film_.rejection() == nullptr;
+  result.passes_add_up = passes_add_up(set_, film_);
   result.passes_of_run = passes_of_run();
   result.seconds = elapsed();
   result.first_pass_statistics = first_pass_statistics_;

@@ -137,7 +137,7 @@ Metadata RenderSession::state_metadata() const {
   identity.instruction_sets = joined_instruction_sets(
       before.instruction_sets, rendered ? identity.instruction_sets : std::string());
   Metadata metadata = identity.to_metadata();
-  add_film_metadata(film_, passes_are_independent(set_), &metadata);
+  add_film_metadata(film_, passes_add_up(set_, film_), &metadata);
   Checkpoint progress;
   progress.passes = done_;
   if (film_.has_open_pass()) progress.open_pass = open_pass_;

@@ -101,7 +101,7 @@ struct OneRun {
 
   Metadata metadata() const {
     Metadata all = identity.to_metadata();
-    add_film_metadata(film, passes_are_independent(set), &all);
+    add_film_metadata(film, passes_add_up(set, film), &all);
     all.emplace_back(kPassesKey, done.text());
     if (open) all.emplace_back(kOpenPassKey, std::to_string(*open));
     return all;
@@ -208,7 +208,7 @@ TEST_P(Resume, PicturesOfOtherPassesAddUp) {
   }
   const std::string sum = directory.file("sum.exr");
   OneRun whole(*scene, GetParam(), false);
-  if (!passes_are_independent(whole.set)) {
+  if (!passes_add_up(whole.set, whole.film)) {
     EXPECT_THROW(merge_pictures(parts, sum), UsageError);
     return;
   }

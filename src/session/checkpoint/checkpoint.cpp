@@ -13,10 +13,11 @@
 
 namespace nephroid {
 
-bool passes_are_independent(const EstimatorSet& set) {
-  return std::ranges::all_of(set.estimators, [](const auto& estimator) {
-    return estimator->descriptor().capabilities.independent_passes;
-  });
+bool passes_add_up(const EstimatorSet& set, const Film& film) {
+  return film.rejection() == nullptr &&
+         std::ranges::all_of(set.estimators, [](const auto& estimator) {
+           return estimator->descriptor().capabilities.independent_passes;
+         });
 }
 
 RenderState state_of(const Scene& scene, EstimatorSet& set, Film& film) {

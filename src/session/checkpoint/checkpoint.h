@@ -24,8 +24,9 @@ struct Checkpoint {
   std::vector<std::string> warnings;
 };
 
-/// True if the passes of all estimators are independent, so that they can be added up.
-bool passes_are_independent(const EstimatorSet& set);
+/// True if whole passes, rendered anywhere, can be added up: the passes of all estimators are
+/// independent, and no outliers are rejected.
+bool passes_add_up(const EstimatorSet& set, const Film& film);
 
 /// The complete state of a render in memory: film and estimators.
 RenderState state_of(const Scene& scene, EstimatorSet& set, Film& film);

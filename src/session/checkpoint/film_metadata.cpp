@@ -37,7 +37,7 @@ void add_film_metadata(const Film& film, bool passes_add_up, Metadata* metadata)
                            {"groups", layout.groups},
                            {"merges", layout.merges},
                            {"parts", parts},
-                           {"passes_add_up", passes_add_up && film.rejection() == nullptr}};
+                           {"passes_add_up", passes_add_up}};
   metadata->emplace_back(kLayoutKey, json.dump());
 }
 

@@ -7,7 +7,7 @@
 
 namespace nephroid {
 
-/// `passes_add_up`: the passes of the film's estimators are independent.
+/// `passes_add_up`: as of checkpoint.h.
 void add_film_metadata(const Film& film, bool passes_add_up, Metadata* metadata);
 
 /// The metadata of a state without the entry that only the program reads, for its picture.
