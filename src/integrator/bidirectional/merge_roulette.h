@@ -33,23 +33,23 @@ class MergeRoulette {
     const uint32_t here = std::exchange(here_, 0u);
     if (!first || letter != EventClass::kDiffuse) return;
     if (counts_) *of_batches_ += here;
-    before_ = of_batches_ ? *of_batches_ : here;
+    const float merged = photons_for_one_ * static_cast<float>(of_batches_ ? *of_batches_ : here);
+    survival_ = std::clamp(1 / merged, kMinSurvival, kMaxSurvival);
   }
   /// q of [W12], the survival probability at the next rough vertex; 1 from then on.
-  float survival() {
-    constexpr float kMinSurvival = 1.0f / 16;
-    const float merged = photons_for_one_ * static_cast<float>(std::exchange(before_, 0u));
-    return std::clamp(1 / std::max(merged, 1.0f), kMinSurvival, 1.0f);
-  }
+  float survival() { return std::exchange(survival_, 1.0f); }
   bool counts() const { return counts_; }
   uint64_t merged() const { return all_; }  ///< photons merged so far
 
  private:
+  static constexpr float kMinSurvival = 1.0f / 16, kMaxSurvival = 0.5f;
+
   uint32_t* const of_batches_;
   const bool counts_;
   const float photons_for_one_;
   uint64_t all_ = 0;
-  uint32_t here_ = 0, before_ = 0;
+  uint32_t here_ = 0;
+  float survival_ = 1;
 };
 
 }  // namespace nephroid

@@ -217,20 +217,29 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   return std::make_shared<const LearnedMix>(std::move(plan));
 }
 
+float PathAndPhotons::radius_of(const MixPlan& plan, const FilmFormat& film, uint32_t pass) const {
+  float radius = first_radius_of_film(plan.techniques, options_, film.picture_pixels()) *
+                 shrinkage(options_, pass);
+  if (plan.techniques.merges_all_light() && plan.balance && !(options_.radius > 0)) {
+    const double more =
+        static_cast<double>(plan.light_paths()) / static_cast<double>(film.bounds().area());
+    radius *= static_cast<float>(std::pow(std::max(1.0, more), (options_.shrink_alpha - 1) / 2));
+  }
+  return radius;
+}
+
 PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene, const FilmFormat& film,
                                  const MixPlan& plan, PassControl& control) const {
-  PairPass pass{
-      .key = key,
-      .seed = hash_combine(key.seed, kPathAndPhotonsNumber),
-      .scene = scene,
-      .owned = owned_,
-      .options = options_,
-      .techniques = plan.techniques,
-      .radius_pixels = first_radius_of_film(plan.techniques, options_, film.picture_pixels()) *
-                       shrinkage(options_, key.pass),
-      .emission = plan.photons.guide.starts,
-      .light_paths_vary = true,
-      .control = control};
+  PairPass pass{.key = key,
+                .seed = hash_combine(key.seed, kPathAndPhotonsNumber),
+                .scene = scene,
+                .owned = owned_,
+                .options = options_,
+                .techniques = plan.techniques,
+                .radius_pixels = radius_of(plan, film, key.pass),
+                .emission = plan.photons.guide.starts,
+                .light_paths_vary = true,
+                .control = control};
   pass.techniques.light_paths = plan.light_paths();
   return pass;
 }
@@ -269,8 +278,7 @@ void PathAndPhotons::record_pixel(const PixelPass& pixel, const Learned* learned
   const MixPlan& plan = static_cast<const LearnedMix*>(learned)->plan();
   const FilmFormat& film = pixel.film;
   PairPass pass = pass_of(pixel.key, pixel.scene, film, plan, unwatched);
-  pass.radius_pixels = first_radius_of_film(plan.techniques, options_, film.picture_pixels()) *
-                       shrinkage(options_, pixel.radius_pass);
+  pass.radius_pixels = radius_of(plan, film, pixel.radius_pass);
   const PixelBounds& b = film.bounds();
   const bool separates_chains = plan.techniques.separates_chains &&
                                 plan.samples.chains.at(pixel.x - b.x0, pixel.y - b.y0) > 0;

@@ -12,7 +12,7 @@ void merge(MergeRoulette& path, int photons) {
 
 TEST(MergeRoulette, GoesOnTheLessTheMorePhotonsWereMerged) {
   for (const auto& [photons, expected] :
-       {std::pair{0, 1.0f}, {1, 1.0f}, {5, 0.2f}, {500, 0.0625f}}) {
+       {std::pair{0, 0.5f}, {1, 0.5f}, {5, 0.2f}, {500, 0.0625f}}) {
     MergeRoulette path(nullptr, false, 1);
     merge(path, photons);
     path.leave(EventClass::kDiffuse, true);
