@@ -139,17 +139,13 @@ int64_t Balance::light_paths(double camera_paths) const {
 }
 
 void Balance::let_photons_lower_variance_of_camera(const Trial& trial) {
-  const double paths = scale * trial.light_paths;
-  if (!(paths > 0)) return;
-  if (cost_of_light > 0 && variance_of_camera > 0) {
-    // V C is least for a root N = y^2 N_0 of y^3 = p y + 2 p q. Newton's method from above it.
-    const double p = cost_of_camera / (cost_of_light * trial.light_paths);
-    const double q = variance_of_light / (trial.light_paths * variance_of_camera);
-    double y = std::sqrt(p) + std::cbrt(2 * p * q);
-    for (int i = 0; i < 20 && y > 0; ++i) y -= (y * y * y - p * y - 2 * p * q) / (3 * y * y - p);
-    min_light_paths = std::max(min_light_paths, paths * y * y);
-  }
-  variance_of_camera /= std::sqrt(std::max(1.0, static_cast<double>(light_paths(1)) / paths));
+  if (!(trial.light_paths > 0 && cost_of_light > 0 && variance_of_camera > 0)) return;
+  const double p = cost_of_camera / (cost_of_light * trial.light_paths);
+  const double q = variance_of_light / (trial.light_paths * variance_of_camera);
+  // Newton's method, from above the only root.
+  double y = std::sqrt(p) + std::cbrt(2 * p * q);
+  for (int i = 0; i < 20 && y > 0; ++i) y -= (y * y * y - p * y - 2 * p * q) / (3 * y * y - p);
+  min_light_paths = std::max(min_light_paths, scale * trial.light_paths * y * y);
 }
 
 double Balance::inverse_efficiency() const {

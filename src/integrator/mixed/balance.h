@@ -68,8 +68,8 @@ struct Balance {
   bool is_sound() const;
   /// Best number of light paths for `camera_paths` per pixel, from min_light_paths to max_photons.
   int64_t light_paths(double camera_paths) const;
-  /// [A7] For photons of all light, and one camera path per pixel: raises min_light_paths to the
-  /// best number if v falls as well, and lowers v. Call with the other bounds set.
+  /// [A7] For photons of all light: they lower v, too, so that more of them are best. Raises
+  /// min_light_paths to the best number for one camera path per pixel.
   void let_photons_lower_variance_of_camera(const Trial& trial);
   /// Camera paths per pixel at which the best number of light paths reaches its limit.
   double max_camera_paths() const { return max_light_paths() / light_paths_of_camera_path(); }

@@ -116,13 +116,14 @@ PathAndPhotons::Choice PathAndPhotons::best_of(
     guided.guide = {};
   Choice all = try_photons(ClassMask::kAll, guided);
   techniques.gathers_in_media = false;
-  const auto without_chains = [](Choice choice) {
+  const auto for_all_light = [](Choice choice) {
+    choice.candidate.balance.let_photons_lower_variance_of_camera(choice.candidate.trial);
     // Separate walks for specular chains would cost more than these short camera paths.
     PairTechniques& own = choice.candidate.techniques;
     own.follows_chains = std::exchange(own.separates_chains, false);
     return choice;
   };
-  if (needs_photons_in_media(owned_, scene)) return without_chains(std::move(all));
+  if (needs_photons_in_media(owned_, scene)) return for_all_light(std::move(all));
   const auto inverse_efficiency = [most_light = all.candidate.trial](Candidate of) {
     // Photons of all light find all that caustic photons find, though they lose light at edges.
     of.balance.variance_of_camera += of.trial.min_variance_of_unseen(most_light);
@@ -156,7 +157,7 @@ PathAndPhotons::Choice PathAndPhotons::best_of(
                   kRequiredGainOfDirectLight);
     keep_better(best, std::move(all), kRequiredGain);
   }
-  if (best.candidate.techniques.merges_all_light()) return without_chains(std::move(best));
+  if (best.candidate.techniques.merges_all_light()) return for_all_light(std::move(best));
   // [A5]
   techniques = best.candidate.techniques;
   techniques.roulette_threshold = kPatientRouletteThreshold;
@@ -218,14 +219,12 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
 }
 
 float PathAndPhotons::radius_of(const MixPlan& plan, const FilmFormat& film, uint32_t pass) const {
-  float radius = first_radius_of_film(plan.techniques, options_, film.picture_pixels()) *
-                 shrinkage(options_, pass);
-  if (plan.techniques.merges_all_light() && plan.balance && !(options_.radius > 0)) {
-    const double more =
-        static_cast<double>(plan.light_paths()) / static_cast<double>(film.bounds().area());
-    radius *= static_cast<float>(std::pow(std::max(1.0, more), (options_.shrink_alpha - 1) / 2));
-  }
-  return radius;
+  const float radius = first_radius_of_film(plan.techniques, options_, film.picture_pixels()) *
+                       shrinkage(options_, pass);
+  // A number that the user sets is the same in a crop, which must not change the radius.
+  if (!plan.techniques.merges_all_light() || !plan.balance) return radius;
+  return radius * shrinkage_by_photons(options_, static_cast<double>(plan.light_paths()) /
+                                                     static_cast<double>(film.bounds().area()));
 }
 
 PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene, const FilmFormat& film,

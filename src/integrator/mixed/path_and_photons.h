@@ -48,7 +48,7 @@ class PathAndPhotons final : public Estimator {
   /// for photons of the caustics of these casters.
   Choice best_of(Trials& trials, const Scene& scene, const FilmFormat& film,
                  const std::function<GuidedPhotons(ClassMask)>& photons_of) const;
-  /// [E5] In pixels. A pass with more light paths than pixels counts as so many passes more.
+  /// The merge radius of a pass in pixel footprints.
   float radius_of(const MixPlan& plan, const FilmFormat& film, uint32_t pass) const;
   PairPass pass_of(const PassKey& key, const Scene& scene, const FilmFormat& film,
                    const MixPlan& plan, PassControl& control) const;

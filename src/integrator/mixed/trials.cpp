@@ -144,10 +144,8 @@ Candidate Trials::run(const PairTechniques& techniques, const EmissionGuide& emi
   // The variance due to photons is inversely proportional to the merge area.
   balance.variance_of_light /= photons_for_one(techniques);
   // More photons also reduce the variance of camera paths, which one trial does not show.
-  if (techniques.merges_all_light()) {
+  if (techniques.merges_all_light())
     balance.min_light_paths = static_cast<double>(film_.bounds().area());
-    balance.let_photons_lower_variance_of_camera(found);
-  }
   return {techniques, found, balance};
 }
 

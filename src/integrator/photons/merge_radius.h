@@ -18,6 +18,9 @@ float first_radius(const IntegratorOptions& options, int64_t pixels);
 float radius_of_pass(const IntegratorOptions& options, int64_t pixels, uint32_t pass);
 /// The radius of a pass over the first radius.
 float shrinkage(const IntegratorOptions& options, uint32_t pass);
+/// [E5] A pass with x > 1 light paths for each pixel counts as x passes: the radius over that of a
+/// pass with one. 1 if the user sets the radius.
+float shrinkage_by_photons(const IntegratorOptions& options, double paths_of_pixel);
 
 /// For EstimatorDescriptor::exposed_pixels: the number of pixels within the first radius. The
 /// second function serves estimators that also splat light paths.

@@ -7,7 +7,7 @@
 
 namespace nephroid {
 
-/// `passes_add_up`: as of checkpoint.h.
+/// `passes_add_up`: see passes_add_up() in checkpoint.h.
 void add_film_metadata(const Film& film, bool passes_add_up, Metadata* metadata);
 
 /// The metadata of a state without the entry that only the program reads, for its picture.

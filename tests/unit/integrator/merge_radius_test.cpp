@@ -16,5 +16,18 @@ TEST(FirstRadius, GrowsWithThePicture) {
   EXPECT_FLOAT_EQ(first_radius(options, 512 * 512), 0.7f);
 }
 
+// After as many photons, a render has the same radius, however they are divided into passes.
+TEST(ShrinkageByPhotons, CountsPhotonsLikePasses) {
+  IntegratorOptions options;
+  EXPECT_FLOAT_EQ(shrinkage_by_photons(options, 1), 1);
+  EXPECT_FLOAT_EQ(shrinkage_by_photons(options, 0.2), 1);
+  EXPECT_FLOAT_EQ(shrinkage_by_photons(options, 64), 0.5f) << "64^(-1/6)";
+  for (const uint32_t x : {2u, 8u})
+    EXPECT_NEAR(shrinkage(options, 4000) * shrinkage_by_photons(options, x),
+                shrinkage(options, 4000 * x), 1e-4f);
+  options.radius = 3;
+  EXPECT_EQ(shrinkage_by_photons(options, 64), 1) << "the user's radius is the radius";
+}
+
 }  // namespace
 }  // namespace nephroid
