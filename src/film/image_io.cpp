@@ -68,6 +68,14 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
   return in;
 }
 
+/// Colours stored as integers, as in a PNG, are sRGB code values; an alpha is not.
+void decode_integers(const OIIO::ImageSpec& spec, std::vector<float>& pixels) {
+  if (spec.format.is_floating_point()) return;
+  for (size_t i = 0; i < pixels.size(); ++i)
+    if (static_cast<int>(i % spec.nchannels) != spec.alpha_channel)
+      pixels[i] = decode_srgb(pixels[i]);
+}
+
 PictureHead head_of(const OIIO::ImageSpec& spec) {
   PictureHead head;
   head.full_width = spec.full_width;
@@ -117,6 +125,7 @@ Picture read_picture(const std::string& path) {
   picture.pixels.resize(spec.image_pixels() * spec.nchannels);
   if (!in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, picture.pixels.data()))
     throw IoError(path + ": cannot read: " + in->geterror());
+  decode_integers(spec, picture.pixels);
   return picture;
 }
 
@@ -132,6 +141,10 @@ uint8_t encode_srgb8(float linear) {
   const float encoded =
       linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
   return static_cast<uint8_t>(encoded * 255.0f + 0.5f);
+}
+
+float decode_srgb(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
 void limit_image_threads(int threads) {

@@ -48,8 +48,9 @@ std::vector<uint8_t> encode_png(int width, int height, const std::vector<uint8_t
 /// Window, channels and metadata of the first image of a file of any format. Throws IoError.
 PictureHead read_picture_head(const std::string& path);
 
-/// Reads the first image of a file of any format as floats, without colour conversion, with its
-/// string metadata and the colour space of its chromaticities. Throws IoError.
+/// Reads the first image of a file of any format as floats, with its string metadata and the
+/// colour space of its chromaticities, into which nothing is converted. Colours stored as integers
+/// (PNG, JPEG) are decoded from sRGB, so all are linear. Throws IoError.
 Picture read_picture(const std::string& path);
 
 /// A colour of the space `from` in the space `to`; null stands for sRGB.
@@ -57,6 +58,8 @@ Rgb converted(Rgb color, const RgbColorSpace* from, const RgbColorSpace* to);
 
 /// Linear [0,1] to the sRGB code value, clamped and rounded; NaN becomes 0.
 uint8_t encode_srgb8(float linear);
+/// The inverse: an sRGB code value over its maximum, [0,1], to linear.
+float decode_srgb(float encoded);
 
 /// Limits the threads that compress and decompress images, to at most kMaxImageThreads. 0: one per
 /// core.

@@ -211,6 +211,7 @@ Metadata metadata_of(const Picture& picture, const MixLayers& layers,
   set_value(&metadata, kLayersByLightKey, layers_by_light_text(kept));
   const MixGains before = parse_mix_text(value_of(picture.metadata, kMixKey));
   set_value(&metadata, kMixKey, mix_text(product(before, gains_of(layers, terms, mix))));
+  set_value(&metadata, kChoicesKey, {});  // it tells of the light before
   return metadata;
 }
 

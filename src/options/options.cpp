@@ -277,8 +277,8 @@ const OptionDescription kOptions[] = {
        l.routes.passes = static_cast<uint32_t>(parse_integer("--passes", t, 1, kMaxPilotPasses));
      }},
     {"info", "FILE", "", "", "", "", "",
-     "A scene (pbrt-v4, glTF, Mitsuba XML or OBJ), - for standard input, or a picture that this "
-     "program wrote.", false,
+     "A scene (pbrt-v4, glTF, Mitsuba XML or OBJ), - for standard input, or an EXR picture that "
+     "this program wrote.", false,
      [](CommandLine& l, const std::string& t) { l.info.file = t; }},
     {"convert", "IN", "", "", "", "", "",
      "A scene: pbrt-v4, glTF, Mitsuba XML or OBJ; - for standard input.", false,

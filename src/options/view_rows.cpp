@@ -14,8 +14,8 @@ constexpr int kMaxPort = 65535;
 
 const OptionDescription kOwnRows[] = {
     {"view", "SCENE", "", "", "", "", "",
-     "A scene (pbrt-v4, glTF, Mitsuba XML or OBJ), or a picture that this program wrote.", false,
-     [](CommandLine& l, const std::string& t) { l.render.scene = t; }},
+     "A scene (pbrt-v4, glTF, Mitsuba XML or OBJ), or an EXR picture that this program wrote.",
+     false, [](CommandLine& l, const std::string& t) { l.render.scene = t; }},
     {"view", "--compare", "", "PICTURE", "", "none", "Page", "A picture to compare with, an EXR.",
      true, [](CommandLine& l, const std::string& t) { l.view.comparisons.push_back(t); }},
     {"view", "--save-to", "", "DIR", "", "the browser's downloads", "Page",

@@ -73,7 +73,7 @@ std::vector<std::string> warnings_of_passes_beyond(const RenderOptions& options)
   if (!options.last_pass || done.empty()) return {};
   const uint32_t first = done.ranges().front().first, last = done.ranges().back().last;
   if (first >= options.first_pass && last <= *options.last_pass) return {};
-  return {fmt::format("{} has passes {}, of which --passes {}..{} are wanted; the others stay",
+  return {fmt::format("{} has passes {}, and --passes {}..{} are wanted; the others stay",
                       options.output, done.text(), options.first_pass, *options.last_pass)};
 }
 

@@ -64,8 +64,10 @@ Merged merge_pictures(const std::vector<std::string>& inputs, const std::string&
       throw UsageError(name + ": cannot " + kPurpose + ": " + why);
     };
     if (const auto open = open_pass_of(file))
-      refuse(fmt::format("pass {} is incomplete, expected whole passes: complete it with --resume",
-                         *open));
+      refuse(fmt::format(
+          "pass {} is incomplete, expected whole passes: complete it with --resume and a longer "
+          "--time, or the same --passes",
+          *open));
     if (value_of(file.metadata(), kOutliersKey) == "reject")
       refuse(
           "its passes depend on each other, since it was rendered with --outliers reject; "

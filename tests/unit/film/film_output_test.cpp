@@ -285,8 +285,9 @@ TEST(FilmOutput, PngHasTheExposedPicture) {
   const Picture png = read_picture(directory.file("out.png"));
   EXPECT_EQ(png.width(), 4);
   EXPECT_EQ(png.height(), 5);
-  EXPECT_FLOAT_EQ(png.pixels[0], 188.0f / 255);
-  EXPECT_FLOAT_EQ(png.pixels[1], 137.0f / 255);  // sRGB of 0.25: 136.96
+  EXPECT_EQ(encode_srgb8(png.pixels[0]), 188);
+  EXPECT_EQ(encode_srgb8(png.pixels[1]), 137);  // sRGB of 0.25: 136.96
+  EXPECT_NEAR(png.pixels[1], 0.25f, 0.002f) << "read as linear light";
   EXPECT_FLOAT_EQ(png.pixels[2], 1.0f);
   EXPECT_FLOAT_EQ(png.pixels[3], 0.0f);
 }

@@ -188,9 +188,9 @@ TEST(HeatMap, WritesOneColourAPixelAndItsScale) {
   const Picture heat = read_picture(path);
   ASSERT_EQ(heat.width(), 2);
   const HeatColor none = heat_color(0), some = heat_color(1 / 1.01);
-  EXPECT_FLOAT_EQ(heat.pixels[0], static_cast<float>(none.r) / 255);
-  EXPECT_FLOAT_EQ(heat.pixels[3], static_cast<float>(some.r) / 255);
-  EXPECT_FLOAT_EQ(heat.pixels[4], static_cast<float>(some.g) / 255);
+  EXPECT_EQ(encode_srgb8(heat.pixels[0]), none.r);
+  EXPECT_EQ(encode_srgb8(heat.pixels[3]), some.r);
+  EXPECT_EQ(encode_srgb8(heat.pixels[4]), some.g);
   EXPECT_NE(heat_map_legend().find("0.001\n"), std::string::npos);
   EXPECT_NE(heat_map_legend().find("10 or more\n"), std::string::npos);
 }

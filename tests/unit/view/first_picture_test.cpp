@@ -84,8 +84,8 @@ Picture decoded(const PictureFrame& frame) {
   return picture;
 }
 
-float byte_at(const Picture& picture, int x, int y) {
-  return std::round(255 * picture.pixels[3 * static_cast<size_t>(y * picture.width() + x)]);
+uint8_t byte_at(const Picture& picture, int x, int y) {
+  return encode_srgb8(picture.pixels[3 * static_cast<size_t>(y * picture.width() + x)]);
 }
 
 TEST(FirstPicture, SmallPicturesKeepTheirPixelsAndAreDarkOutsideOfTheWindow) {
