@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "core/errors.h"
+#include "core/srgb.h"
 #include "film/atomic_file.h"
 #include "film/chromaticities.h"
 #include "input/claimed_size.h"
@@ -141,10 +142,6 @@ uint8_t encode_srgb8(float linear) {
   const float encoded =
       linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
   return static_cast<uint8_t>(encoded * 255.0f + 0.5f);
-}
-
-float decode_srgb(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
 void limit_image_threads(int threads) {

@@ -58,8 +58,6 @@ Rgb converted(Rgb color, const RgbColorSpace* from, const RgbColorSpace* to);
 
 /// Linear [0,1] to the sRGB code value, clamped and rounded; NaN becomes 0.
 uint8_t encode_srgb8(float linear);
-/// The inverse: an sRGB code value over its maximum, [0,1], to linear.
-float decode_srgb(float encoded);
 
 /// Limits the threads that compress and decompress images, to at most kMaxImageThreads. 0: one per
 /// core.

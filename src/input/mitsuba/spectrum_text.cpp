@@ -6,14 +6,11 @@
 #include "core/color.h"
 #include "core/counted.h"
 #include "core/spectra.h"
+#include "core/srgb.h"
 #include "input/mitsuba/value_text.h"
 
 namespace nephroid::mitsuba {
 namespace {
-
-double decoded_value(double v) {
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
 
 Vec3d rgb_of_hexadecimal(std::string_view text, const SourceLocation& where) {
   unsigned int value = 0;
@@ -38,7 +35,7 @@ void check_pairs(const std::vector<double>& pairs, const SourceLocation& where) 
 }  // namespace
 
 Vec3d decoded(const Vec3d& v) {
-  return {decoded_value(v.x), decoded_value(v.y), decoded_value(v.z)};
+  return {decode_srgb(v.x), decode_srgb(v.y), decode_srgb(v.z)};
 }
 
 Vec3d rgb_of_text(const Property& property, bool is_encoded) {

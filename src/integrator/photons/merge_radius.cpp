@@ -39,13 +39,13 @@ float radius_of_pass(const IntegratorOptions& options, int64_t pixels, uint32_t 
   return first_radius(options, pixels) * shrinkage(options, pass);
 }
 
+float shrinkage(const IntegratorOptions& options, uint32_t pass) {
+  return static_cast<float>(std::sqrt(memoryless_radius_squared(pass, options.shrink_alpha)));
+}
+
 float shrinkage_by_photons(const IntegratorOptions& options, double paths_of_pixel) {
   if (options.radius > 0 || !(paths_of_pixel > 1)) return 1;
   return static_cast<float>(std::pow(paths_of_pixel, (options.shrink_alpha - 1) / 2));
-}
-
-float shrinkage(const IntegratorOptions& options, uint32_t pass) {
-  return static_cast<float>(std::sqrt(memoryless_radius_squared(pass, options.shrink_alpha)));
 }
 
 }  // namespace nephroid

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/srgb.h"
+
 namespace nephroid {
 
 std::optional<ColorEncoding> ColorEncoding::parse(const std::string& name) {
@@ -24,7 +26,7 @@ float ColorEncoding::decode(float stored) const {
     case Kind::kLinear:
       break;
     case Kind::kSrgb:
-      return stored <= 0.04045f ? stored / 12.92f : std::pow((stored + 0.055f) / 1.055f, 2.4f);
+      return decode_srgb(stored);
     case Kind::kGamma:
       return std::pow(stored, gamma);
   }

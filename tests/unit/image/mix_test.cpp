@@ -48,7 +48,8 @@ Picture by_light() {
                              {"stderr", {0.1f, 0.1f}}},
                             {{kRoutesKey, kRoutes},
                              {kLayersByLightKey, "key = light key\nrim = light rim\n"},
-                             {"nephroid:seed", "4"}});
+                             {"nephroid:seed", "4"},
+                             {kChoicesKey, "estimated error: 0.1\n"}});
 }
 
 Picture by_both() {
@@ -92,6 +93,7 @@ TEST(Mix, OfLightsIsTheirWeightedSum) {
     EXPECT_TRUE(values(result, layer).empty()) << layer;
   EXPECT_EQ(value_of(result.metadata, kMixKey), "light key = 2\nlight rim = 1\n");
   EXPECT_EQ(value_of(result.metadata, "nephroid:seed"), "4");
+  EXPECT_EQ(value_of(result.metadata, kChoicesKey), "") << "the report is of the light before";
 }
 
 TEST(Mix, OfRoutesIsTheirWeightedSum) {
