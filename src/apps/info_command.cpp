@@ -13,6 +13,7 @@
 #include "session/checkpoint/picture_description.h"
 #include "session/process_memory.h"
 #include "session/scene_loading.h"
+#include "session/settings/integrator_choice.h"
 
 namespace nephroid {
 namespace {
@@ -114,8 +115,8 @@ const char* caustics_of(const Scene& scene) {
 void print_integrator(const Scene& scene) {
   const std::string& own = scene.integrator;
   const std::string here = integrator_for_scene_name(own.empty() ? "volpath" : own);
-  fmt::print("with --integrator scene: {} (the scene names {})\n",
-             here.empty() ? "not available" : here, own.empty() ? "none" : own);
+  fmt::print("integrator: {}, or with --integrator scene: {} (the scene names {})\n",
+             kDefaultIntegrator, here.empty() ? "not available" : here, own.empty() ? "none" : own);
   fmt::print("pixel samples: {}\n", scene.samples_per_pixel);
 }
 

@@ -27,7 +27,7 @@ std::string description(const RenderProgress& p) {
   if (p.passes_wanted) text += fmt::format("/{}", *p.passes_wanted);
   text += in_number(p.passes_wanted.value_or(p.passes_done), " pass", " passes");
   if (p.seconds_left) text += fmt::format(", {} left", clock_text(*p.seconds_left));
-  if (p.seconds > 0)
+  if (p.seconds > 0 && p.rays > 0)
     text += fmt::format(", {} rays/s", short_number(static_cast<double>(p.rays) / p.seconds));
   if (p.photons_stored > 0)
     text += fmt::format(", {} kept", short_count(static_cast<double>(p.photons_stored), "photon"));

@@ -303,7 +303,7 @@ Answer Answers::upload(const Parameters& parameters, const std::string& body) {
                       name, kMaxUploadedValues));
     return json_answer({{"id", comparisons_.add_file(color_picture(read_picture(path)), name)}});
   } catch (const IoError&) {
-    throw UsageError(name + ": this is no picture that can be read, expected an EXR");
+    throw UsageError(name + ": this is no picture that can be read, expected EXR, PNG or JPEG");
   }
 }
 

@@ -13,6 +13,9 @@
 #include <thread>
 
 #include "core/errors.h"
+#include "film/image_io.h"
+#include "input/file_bytes.h"
+#include "view/temporary_directory.h"
 
 namespace nephroid {
 namespace {
@@ -213,6 +216,19 @@ TEST_F(Server, ComparesWithSnapshots) {
   EXPECT_EQ(heat->get_header_value("Content-Type"), "image/png");
   EXPECT_EQ(heat->body.substr(1, 3), "PNG");
   EXPECT_EQ(status_of_get("/api/frame?comparison=A", of_browser()), 200);
+}
+
+TEST_F(Server, ComparesWithAPngThatWasUploaded) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("grey.png");
+  write_png(path, 2, 1, std::vector<uint8_t>(6, 188));  // the sRGB code of 0.5, rounded
+  const std::string png = read_file_bytes(path);
+  EXPECT_EQ(status_of_post("/api/upload?name=own.png", of_page(), png, "application/octet-stream"),
+            200);
+  const auto answer = client().Get("/api/compare?with=file1", of_browser());
+  const nlohmann::json json = nlohmann::json::parse(answer->body);
+  EXPECT_GT(json["relmse"], 0);  // eight bits are not the whole picture
+  EXPECT_LT(json["relmse"], 1e-4);
 }
 
 TEST_F(Server, RefusesLongAndMalformedBodies) {
