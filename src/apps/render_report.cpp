@@ -20,11 +20,13 @@ std::string summary(const RenderResult& result) {
                   result.seconds, stop_reason_text(result.reason));
   if (result.passes_done > result.passes_of_run)
     text += fmt::format(", {} in all runs", result.passes_done);
-  if (result.has_unfinished_pass)
+  if (result.has_unfinished_pass && result.passes_done > 0)
+    text += ", and a part of the next";
+  else if (result.has_unfinished_pass)
     text +=
-        result.passes_done > 0
-            ? ", and a part of the next"
-            : ", and a part of the first: pixels that it has not reached are as their neighbours";
+        result.is_covered
+            ? ", and a part of the first: pixels that it has not reached are as their neighbours"
+            : ", and the beginning of the first: light that it has not reached is black";
   if (rays > 0 && result.seconds > 0)
     text += fmt::format(", {} rays/s", short_number(static_cast<double>(rays) / result.seconds));
   if (result.passes_of_run == 0 && !result.has_unfinished_pass && result.passes_done > 0)

@@ -14,6 +14,7 @@ RenderRequest request_of(const RenderCommand& command) {
   request.memory = command.memory;
   request.seed = command.seed;
   request.resume = command.resume;
+  request.learned_from = command.learned_from;
   request.strict = command.strict;
   RenderOptions& options = request.options;
   if (command.passes) {

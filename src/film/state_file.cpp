@@ -243,6 +243,11 @@ std::vector<std::string> StateFile::load(const RenderState& state) {
       in.fail("'" + array.name + "' has the wrong size");
     in.read_section(section, array.bytes);
   }
+  return load_streams(state);
+}
+
+std::vector<std::string> StateFile::load_streams(const RenderState& state) {
+  Input& in = *input_;
   std::vector<std::string> passed_over;
   for (const RenderState::Stream& stream : state.streams) {
     if (stream.is_optional() && !in.find(stream.name)) continue;

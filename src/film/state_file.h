@@ -45,6 +45,8 @@ class StateFile {
   /// here. Optional streams may be missing. Returns an error, with the file's name, for each
   /// optional stream that cannot be read.
   std::vector<std::string> load(const RenderState& state);
+  /// The same for the streams of `state` alone; whatever else the file has is passed over.
+  std::vector<std::string> load_streams(const RenderState& state);
 
  private:
   struct Input;

@@ -171,6 +171,10 @@ const OptionDescription kOptions[] = {
      "Go on with the render of OUT.state, or start it. The result has the bits of an uninterrupted "
      "run.",
      false, [](CommandLine& l, const std::string&) { l.render.resume = true; }},
+    {"render", "--learned-from", "", "PICTURE", "", "none", "Output",
+     "Take what a task of the same render has learned, from the state beside its picture, instead "
+     "of learning it again. The bits are the same.",
+     false, [](CommandLine& l, const std::string& t) { l.render.learned_from = t; }, true},
     {"render", "--checkpoint", "", "TIME", "s, m or h", "60s", "Output",
      "How often the picture and OUT.state are written meanwhile. It is less often where that would "
      "take more than 2 % of the time.",

@@ -33,6 +33,7 @@ struct RenderCommand {
   SettingList settings;
   bool reject_outliers = false;
   bool resume = false;
+  std::string learned_from;         ///< picture; empty: none
   double checkpoint_interval = 60;  ///< seconds
   bool keeps_state = true;
   std::vector<std::string> stream;  ///< layers of the frames on standard output; empty: no frames

@@ -27,6 +27,7 @@ struct RenderRequest {
   std::optional<uint64_t> seed;  ///< empty: the scene's
   bool resume = false;           ///< continues the saved render, if it is there
   std::string resume_from;       ///< picture of the saved render; empty: the output
+  std::string learned_from;      ///< picture of a render that has learned already; empty: none
   bool strict = false;           ///< names that the format does not have are errors
   /// Stop rules and output. Render sets seed, begin_with, identity and notes.
   RenderOptions options;

@@ -233,6 +233,30 @@ TEST_P(Resume, PicturesOfOtherPassesAddUp) {
   EXPECT_THROW(merge_pictures(parts, sum), UsageError);
 }
 
+TEST_P(Resume, WhatAnotherTaskLearnedGivesTheSameBits) {
+  const auto scene = scene_for(GetParam());
+  const ScratchDirectory directory;
+  const std::string path = directory.file("task.exr");
+  OneRun first(*scene, GetParam(), false);
+  first.render(0, 0);
+  first.write(path);
+  OneRun whole(*scene, GetParam(), false), task(*scene, GetParam(), false);
+  const auto keeps = [](const auto& estimator) {
+    return !estimator->descriptor().capabilities.learned_is_light;
+  };
+  const bool keeps_all = std::ranges::all_of(task.set.estimators, keeps);
+  learn_from(path, task.identity, task.set, task.film);
+  whole.render(0, 1);
+  task.render(0, 1);
+  expect_same_state(state_of(*scene, task.set, task.film), state_of(*scene, whole.set, whole.film),
+                    "learned from another task");
+  uint64_t learning_rays = 0;
+  for (const EstimatorStatistics& s : task.set.statistics()) learning_rays += s.learning_rays;
+  if (keeps_all) {
+    EXPECT_EQ(learning_rays, 0u);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(AllRoutes, Resume, ::testing::ValuesIn(plan_names()),
                          [](const auto& test) { return test_name(test.param); });
 
@@ -256,6 +280,7 @@ TEST(ResumeRefuses, ThePictureOfAnotherRender) {
       EXPECT_NE(text.find(line), std::string::npos) << text;
     EXPECT_EQ(text.find("max-depth"), std::string::npos) << text;
   }
+  EXPECT_THROW(learn_from(path, other.identity, other.set, other.film), UsageError);
   std::filesystem::remove(state_path_beside(path));
   EXPECT_THROW(run.go_on(path), IoError);
 }

@@ -104,6 +104,25 @@ TEST_F(CheckpointCommand, WhatIsMergedIsOneRun) {
   EXPECT_EQ(value_of(picture("sum").metadata, "nephroid:passes"), "0..3");
 }
 
+TEST_F(CheckpointCommand, ATaskTakesWhatAnotherHasLearned) {
+  const auto has_learned = [&](const std::string& name) {
+    const std::string choices = value_of(picture(name).metadata, "nephroid:choices");
+    EXPECT_NE(choices.find(" % to learn"), std::string::npos) << choices;
+    return choices.find(" 0 % to learn") == std::string::npos;
+  };
+  render("a", {"--passes", "0..0"});
+  render("alone", {"--passes", "1..2"});
+  EXPECT_EQ(render("b", {"--passes", "1..2", "--learned-from", "a.exr", "--quiet"}).errors, "");
+  expect_same("alone", "b");
+  EXPECT_TRUE(has_learned("alone"));
+  EXPECT_FALSE(has_learned("b"));
+  expect_said(render("c", {"--passes", "1", "--seed", "3", "--learned-from", "a.exr"}, kUsage),
+              "cannot take what it has learned");
+  run_program(folder_.path(), {"merge", "a.exr", "b.exr", "-o", "sum.exr"});
+  expect_said(render("d", {"--passes", "3..3", "--learned-from", "sum.exr"}),
+              "nothing learned is kept there");
+}
+
 TEST_F(CheckpointCommand, AnotherRenderIsRefusedWithWhatDiffers) {
   render("a", {"--passes", "1"});
   expect_said(render("a", {"--passes", "2", "--resume", "--seed", "3"}, kUsage), "seed 0, here 3");

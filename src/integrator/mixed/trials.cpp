@@ -6,7 +6,6 @@
 #include "integrator/bidirectional/vertex_connection_merging.h"
 #include "integrator/learning/guiding_options.h"
 #include "integrator/photons/merge_radius.h"
-#include "photon/photon.h"
 
 namespace nephroid {
 
@@ -16,24 +15,14 @@ constexpr uint64_t kTrialStream = 0x747269616c;  // "trial"
 /// Passes per trial, and camera paths per pixel and pass.
 constexpr uint32_t kTrialPasses = 2, kTrialSamples = 2;
 
-constexpr double kMinPhotonBytes = 96 << 20, kPhotonBytesPerPixel = 44;
-/// The default of memory_photons, with a margin for random variation.
-constexpr double kMaxTrialPhotons = 0.95 * (1 << 20);
-/// Bytes per photon, its entry in the grid included.
-constexpr double kBytesOfPhoton = sizeof(Photon) + sizeof(Vec3f) + 24;
+/// Most photons of a pass: the default of memory_photons, with a margin for random variation.
+constexpr double kMaxPhotons = 0.95 * (1 << 20);
 
 /// First merge radius for photons of all light over that for caustic photons.
 constexpr float kRadiusOfAllLight = 4.0f / 3;
 
 float widening(const PairTechniques& techniques, const IntegratorOptions& options) {
   return techniques.merges_all_light() && !(options.radius > 0) ? kRadiusOfAllLight : 1.0f;
-}
-
-/// Limit of photons per pass for a film.
-double max_photons(const FilmFormat& film) {
-  const double bytes =
-      std::max(kMinPhotonBytes, kPhotonBytesPerPixel * static_cast<double>(film.bounds().area()));
-  return std::min(kMaxTrialPhotons, bytes / kBytesOfPhoton);
 }
 
 /// kTrialSamples per pixel in every other tile, none elsewhere.
@@ -139,7 +128,7 @@ Candidate Trials::run(const PairTechniques& techniques, const EmissionGuide& emi
   const Trial found = trial_of(split_noise(passes, tiles_, kTrialSamples), counts, techniques,
                                static_cast<double>(records * stride));
   Balance balance(found);
-  balance.max_photons = max_photons(film_);
+  balance.max_photons = kMaxPhotons;
   balance.scale = static_cast<double>(film_.bounds().area()) / pixels_;
   // The variance due to photons is inversely proportional to the merge area.
   balance.variance_of_light /= photons_for_one(techniques);

@@ -84,7 +84,8 @@ void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatist
       s.notes.push_back(std::string(kNoCaustics) + kNoPhotonsNeeded);
     return;
   }
-  if (found > 0 || s.photon_paths == 0) return;
+  const bool has_looked = s.photon_paths > 0 && s.camera_paths > 0;
+  if (found > 0 || !has_looked) return;
   if (s.photons_stored > 0)
     s.notes.push_back(counted(s.photons_stored, "photon") +
                       " stored, none near a point that the camera sees");

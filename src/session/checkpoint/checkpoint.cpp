@@ -20,17 +20,26 @@ bool passes_add_up(const EstimatorSet& set, const Film& film) {
          });
 }
 
+namespace {
+
+/// Adds what the estimators have learned. A photon map is left out: it is large and quickly made
+/// again.
+void add_learned(EstimatorSet& set, const Film& film, RenderState& state) {
+  set.learned.resize(set.estimators.size());
+  for (size_t i = 0; i < set.estimators.size(); ++i)
+    if (!set.estimators[i]->descriptor().capabilities.learned_is_light)
+      set.learned[i].add_state(*set.estimators[i], film.format(),
+                               fmt::format("{}learned.{}", RenderState::kOptionalPrefix, i), state);
+}
+
+constexpr const char* kLearnedAgain = "; it is learned again";
+
+}  // namespace
+
 RenderState state_of(const Scene& scene, EstimatorSet& set, Film& film) {
   RenderState state = film.state();
-  set.learned.resize(set.estimators.size());
-  for (size_t i = 0; i < set.estimators.size(); ++i) {
-    Estimator& estimator = *set.estimators[i];
-    estimator.add_state(scene, film, state);
-    // A photon map is left out: it is large and quickly made again.
-    if (!estimator.descriptor().capabilities.learned_is_light)
-      set.learned[i].add_state(estimator, film.format(),
-                               fmt::format("{}learned.{}", RenderState::kOptionalPrefix, i), state);
-  }
+  for (const auto& estimator : set.estimators) estimator->add_state(scene, film, state);
+  add_learned(set, film, state);
   return state;
 }
 
@@ -199,12 +208,29 @@ Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const
                         value_of(metadata, kInstructionSetKey),
                         {}};
   for (const std::string& reason : passed_over)
-    checkpoint.warnings.push_back(reason + "; it is learned again");
+    checkpoint.warnings.push_back(reason + kLearnedAgain);
   if (auto warning = warning_of_instruction_sets(file, here, "here"))
     checkpoint.warnings.push_back(std::move(*warning));
   return checkpoint;
 } catch (const IoError& error) {
   throw IoError(std::string(error.what()) + "; without --resume the render starts anew");
+}
+
+std::vector<std::string> learn_from(const std::string& path, const RenderIdentity& here,
+                                    EstimatorSet& set, const Film& film) {
+  const std::string purpose = "take what it has learned";
+  StateFile file = open_state(path, purpose);
+  require_same_render(file, here, "here", purpose);
+  RenderState state;
+  add_learned(set, film, state);
+  std::vector<std::string> warnings = file.load_streams(state);
+  for (std::string& warning : warnings) warning += kLearnedAgain;
+  if (warnings.empty() && std::ranges::none_of(set.learned, &LearningLoop::has_value))
+    warnings.push_back(file.path() +
+                       ": nothing learned is kept there; this render learns by itself");
+  if (auto warning = warning_of_instruction_sets(file, here, "here"))
+    warnings.push_back(std::move(*warning));
+  return warnings;
 }
 
 }  // namespace nephroid

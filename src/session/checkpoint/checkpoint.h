@@ -84,4 +84,10 @@ std::optional<std::string> warning_of_replacing(const std::string& output,
 Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const Scene& scene,
                       EstimatorSet& set, Film& film);
 
+/// Gives the estimators what the render of a picture, or a task of it, has learned. Returns
+/// warnings; what is not in its state is learned again. Throws UsageError with all differences if
+/// it belongs to another render, IoError if its state is missing or cannot be read.
+std::vector<std::string> learn_from(const std::string& path, const RenderIdentity& here,
+                                    EstimatorSet& set, const Film& film);
+
 }  // namespace nephroid
