@@ -12,7 +12,7 @@
 namespace nephroid {
 namespace {
 
-std::string summary(const RenderResult& result) {
+std::string summary(const RenderResult& result, const Film& film) {
   uint64_t rays = 0;
   for (const EstimatorStatistics& s : result.statistics) rays += s.rays;
   std::string text =
@@ -20,13 +20,9 @@ std::string summary(const RenderResult& result) {
                   result.seconds, stop_reason_text(result.reason));
   if (result.passes_done > result.passes_of_run)
     text += fmt::format(", {} in all runs", result.passes_done);
-  if (result.has_unfinished_pass && result.passes_done > 0)
-    text += ", and a part of the next";
-  else if (result.has_unfinished_pass)
-    text +=
-        result.is_covered
-            ? ", and a part of the first: pixels that it has not reached are as their neighbours"
-            : ", and the beginning of the first: light that it has not reached is black";
+  if (result.has_unfinished_pass)
+    text += result.passes_done > 0 ? ", and a part of the next"
+                                   : ", and a part of the first: " + text_of_unreached_pixels(film);
   if (rays > 0 && result.seconds > 0)
     text += fmt::format(", {} rays/s", short_number(static_cast<double>(rays) / result.seconds));
   if (result.passes_of_run == 0 && !result.has_unfinished_pass && result.passes_done > 0)
@@ -67,7 +63,7 @@ std::string render_report(const RenderResult& result, const Film& film, const st
   if (!result.has_picture)
     return fmt::format("{} before the first pixels were rendered: there is no {}\n",
                        stop_reason_text(result.reason), output.empty() ? "picture" : output);
-  std::string text = summary(result);
+  std::string text = summary(result, film);
   for (const std::string& line :
        choices_report(result.first_pass_statistics, result.statistics, result.passes_of_run))
     text += line + "\n";

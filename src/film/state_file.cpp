@@ -246,6 +246,10 @@ std::vector<std::string> StateFile::load(const RenderState& state) {
   return load_streams(state);
 }
 
+bool StateFile::has(const std::string& section) const {
+  return input_->find(section) != nullptr;
+}
+
 std::vector<std::string> StateFile::load_streams(const RenderState& state) {
   Input& in = *input_;
   std::vector<std::string> passed_over;

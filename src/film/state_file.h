@@ -45,8 +45,10 @@ class StateFile {
   /// here. Optional streams may be missing. Returns an error, with the file's name, for each
   /// optional stream that cannot be read.
   std::vector<std::string> load(const RenderState& state);
-  /// The same for the streams of `state` alone; whatever else the file has is passed over.
+  /// The same for the streams of `state` alone. The file's arrays are not read.
   std::vector<std::string> load_streams(const RenderState& state);
+  /// True if the file has a section of that name, even one without words.
+  bool has(const std::string& section) const;
 
  private:
   struct Input;

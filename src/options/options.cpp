@@ -61,6 +61,10 @@ void add_setting(CommandLine& line, const std::string& text) {
   (line.*Command).settings.push_back(parse_setting(text));
 }
 
+void set_learned_from(CommandLine& line, const std::string& text) {
+  if (text.empty()) throw UsageError("--learned-from: '' is not valid, expected a picture");
+  line.render.learned_from = text;
+}
 void set_layers(CommandLine& line, const std::string& text) {
   constexpr std::pair<std::string_view, LayerChoice> kChoices[] = {{"routes", LayerChoice::kRoutes},
                                                                    {"lights", LayerChoice::kLights},
@@ -172,9 +176,9 @@ const OptionDescription kOptions[] = {
      "run.",
      false, [](CommandLine& l, const std::string&) { l.render.resume = true; }},
     {"render", "--learned-from", "", "PICTURE", "", "none", "Output",
-     "Take what a task of the same render has learned, from the state beside its picture, instead "
-     "of learning it again. The bits are the same.",
-     false, [](CommandLine& l, const std::string& t) { l.render.learned_from = t; }, true},
+     "Take what another task of the same render has learned from the state beside its picture, if "
+     "there is one, instead of learning it again. The bits are the same.",
+     false, set_learned_from, true},
     {"render", "--checkpoint", "", "TIME", "s, m or h", "60s", "Output",
      "How often the picture and OUT.state are written meanwhile. It is less often where that would "
      "take more than 2 % of the time.",

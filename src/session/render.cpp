@@ -164,7 +164,7 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
     warn_of({*warning}, warnings_.output);
 
   has_resumed_ = !options.begin_with.passes.empty() || options.begin_with.open_pass;
-  if (!has_resumed_ && !request.learned_from.empty())
+  if (!request.learned_from.empty() && !options.begin_with.has_learned)
     warn_of(learn_from(request.learned_from, identity_, set_, *film_), warnings_.output);
   session_.emplace(scene, set_, *film_, std::move(options));
   if (warnings_.output) session_->on_warning(warnings_.output);

@@ -27,7 +27,7 @@ struct RenderRequest {
   std::optional<uint64_t> seed;  ///< empty: the scene's
   bool resume = false;           ///< continues the saved render, if it is there
   std::string resume_from;       ///< picture of the saved render; empty: the output
-  std::string learned_from;      ///< picture of a render that has learned already; empty: none
+  std::string learned_from;      ///< picture with what is to be learned; empty: none
   bool strict = false;           ///< names that the format does not have are errors
   /// Stop rules and output. Render sets seed, begin_with, identity and notes.
   RenderOptions options;
@@ -54,7 +54,8 @@ class Render {
  public:
   /// Prepares: routes, estimators, memory check, film, state of an earlier run. Keeps a reference
   /// to the scene. Throws UsageError and SceneError for a request that cannot be rendered, IoError
-  /// for a picture that cannot be resumed or written.
+  /// for a picture that cannot be resumed or written. What cannot be taken from
+  /// RenderRequest::learned_from is a warning.
   Render(const RenderRequest& request, const LoadedScene& loaded, RenderWarnings warnings = {});
   Render(const Render&) = delete;
   Render& operator=(const Render&) = delete;

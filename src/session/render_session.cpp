@@ -154,7 +154,6 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.signal = *reason == StopReason::kSignal ? signals.stop.load() : 0;
   result.passes_done = passes_done_;
   result.has_unfinished_pass = film_.has_open_pass();
-  result.is_covered = film_.can_be_shown();
   result.passes_add_up = passes_add_up(set_, film_);
   result.passes_of_run = passes_of_run();
   result.seconds = elapsed();

@@ -66,7 +66,6 @@ struct RenderResult {
   int signal = 0;                    ///< signal that stopped it, 0 if none
   uint32_t passes_done = 0;          ///< whole passes of all runs
   bool has_unfinished_pass = false;  ///< some pixels have estimates of one more pass
-  bool is_covered = true;            ///< each pixel has light, its own or that of a neighbour
   bool passes_add_up = true;         ///< merge takes whole passes of the picture
   bool has_picture = false;          ///< there is light to show; else nothing was written
   bool has_state = false;            ///< the picture has its state beside it

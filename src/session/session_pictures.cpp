@@ -118,11 +118,7 @@ std::string RenderSession::choices_text() const {
        choices_report(first_pass_statistics_, statistics(), passes_of_run()))
     choices += line + "\n";
   if (film_.has_open_pass() && passes_done_ == 0)
-    choices += film_.can_be_shown()
-                   ? "note: the first pass is not whole: pixels that it has not reached are as "
-                     "their neighbours\n"
-                   : "note: the first pass has only begun: light that it has not reached is "
-                     "black\n";
+    choices += "note: the first pass is not whole: " + text_of_unreached_pixels(film_) + "\n";
   for (const std::string& note : options_.notes) choices += "note: " + note + "\n";
   if (error_text_) choices += *error_text_ + "\n";
   for (const std::string& fault : invalid_samples(scene_, film_))

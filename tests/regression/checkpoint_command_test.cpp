@@ -110,17 +110,24 @@ TEST_F(CheckpointCommand, ATaskTakesWhatAnotherHasLearned) {
     EXPECT_NE(choices.find(" % to learn"), std::string::npos) << choices;
     return choices.find(" 0 % to learn") == std::string::npos;
   };
+  const std::vector<std::string> task{"--passes", "1..2", "--float", "--quiet", "--resume"};
   render("a", {"--passes", "0..0"});
-  render("alone", {"--passes", "1..2"});
-  EXPECT_EQ(render("b", {"--passes", "1..2", "--learned-from", "a.exr", "--quiet"}).errors, "");
+  render("alone", task);
+  std::vector<std::string> taught = task;
+  taught.insert(taught.end(), {"--learned-from", "a.exr"});
+  EXPECT_EQ(render("b", taught).errors,
+            "nephroid: warning: --resume: there is no b.exr yet, the render starts at its first "
+            "pass\n");
+  EXPECT_EQ(render("b", taught).errors, "");
   expect_same("alone", "b");
   EXPECT_TRUE(has_learned("alone"));
   EXPECT_FALSE(has_learned("b"));
   expect_said(render("c", {"--passes", "1", "--seed", "3", "--learned-from", "a.exr"}, kUsage),
-              "cannot take what it has learned");
-  run_program(folder_.path(), {"merge", "a.exr", "b.exr", "-o", "sum.exr"});
-  expect_said(render("d", {"--passes", "3..3", "--learned-from", "sum.exr"}),
-              "nothing learned is kept there");
+              "cannot take what it has learned: it belongs to a different render");
+  expect_said(render("c", {"--passes", "1", "--learned-from", ""}, kUsage),
+              "--learned-from: '' is not valid, expected a picture");
+  expect_said(render("c", {"--passes", "1", "--learned-from", "none.exr"}),
+              "; this render learns by itself");
 }
 
 TEST_F(CheckpointCommand, AnotherRenderIsRefusedWithWhatDiffers) {

@@ -25,8 +25,6 @@ class LearningLoop {
   /// Saves the present value in a state under `name`, or reads it from there.
   void add_state(const Estimator& estimator, const FilmFormat& format, std::string name,
                  RenderState& state);
-  /// True if it keeps a value that was learned or read.
-  bool has_value() const { return value_ != nullptr; }
   /// Adds the findings and costs of the present value, without rays if it was read.
   void add_to(EstimatorStatistics& statistics) const;
 

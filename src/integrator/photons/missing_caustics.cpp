@@ -84,16 +84,18 @@ void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatist
       s.notes.push_back(std::string(kNoCaustics) + kNoPhotonsNeeded);
     return;
   }
-  const bool has_looked = s.photon_paths > 0 && s.camera_paths > 0;
-  if (found > 0 || !has_looked) return;
-  if (s.photons_stored > 0)
-    s.notes.push_back(counted(s.photons_stored, "photon") +
-                      " stored, none near a point that the camera sees");
-  else if (deposits_at_once(owned))
+  if (found > 0 || s.photon_paths == 0) return;
+  if (s.photons_stored > 0) {
+    // A pass may have been stopped before camera paths looked for photons.
+    if (s.camera_paths > 0)
+      s.notes.push_back(counted(s.photons_stored, "photon") +
+                        " stored, none near a point that the camera sees");
+  } else if (deposits_at_once(owned)) {
     s.notes.push_back("none of " + counted(s.photon_paths, "photon path") +
                       " met a surface where its route merges photons");
-  else
+  } else {
     explain_lost_paths(owned, s);
+  }
 }
 
 }  // namespace nephroid

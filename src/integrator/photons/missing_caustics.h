@@ -8,7 +8,6 @@
 namespace nephroid {
 
 /// Says why photons brought no light, if they brought none; `found` photons were merged.
-/// Adds nothing before camera paths have looked for photons, as in a first pass that was stopped.
 void explain_darkness(const OwnedRoutes& owned, uint64_t found, EstimatorStatistics& statistics);
 
 /// The same for caustics of the default integrator, from its counts of traced and useful paths.

@@ -22,24 +22,36 @@ bool passes_add_up(const EstimatorSet& set, const Film& film) {
 
 namespace {
 
-/// Adds what the estimators have learned. A photon map is left out: it is large and quickly made
+/// Adds what estimator `i` has learned. A photon map is left out: it is large and quickly made
 /// again.
-void add_learned(EstimatorSet& set, const Film& film, RenderState& state) {
-  set.learned.resize(set.estimators.size());
-  for (size_t i = 0; i < set.estimators.size(); ++i)
-    if (!set.estimators[i]->descriptor().capabilities.learned_is_light)
-      set.learned[i].add_state(*set.estimators[i], film.format(),
-                               fmt::format("{}learned.{}", RenderState::kOptionalPrefix, i), state);
+void add_learned(size_t i, EstimatorSet& set, const Film& film, RenderState& state) {
+  const Estimator& estimator = *set.estimators[i];
+  if (!estimator.descriptor().capabilities.learned_is_light)
+    set.learned[i].add_state(estimator, film.format(),
+                             fmt::format("{}learned.{}", RenderState::kOptionalPrefix, i), state);
 }
 
-constexpr const char* kLearnedAgain = "; it is learned again";
+bool has_all(const StateFile& file, const std::vector<RenderState::Stream>& streams) {
+  return std::ranges::all_of(
+      streams, [&](const RenderState::Stream& stream) { return file.has(stream.name); });
+}
+
+/// Warnings about learned values that could not be read, from the reasons.
+std::vector<std::string> warnings_of_learned(const std::vector<std::string>& reasons) {
+  std::vector<std::string> warnings;
+  for (const std::string& reason : reasons) warnings.push_back(reason + "; it is learned again");
+  return warnings;
+}
 
 }  // namespace
 
 RenderState state_of(const Scene& scene, EstimatorSet& set, Film& film) {
   RenderState state = film.state();
-  for (const auto& estimator : set.estimators) estimator->add_state(scene, film, state);
-  add_learned(set, film, state);
+  set.learned.resize(set.estimators.size());
+  for (size_t i = 0; i < set.estimators.size(); ++i) {
+    set.estimators[i]->add_state(scene, film, state);
+    add_learned(i, set, film, state);
+  }
   return state;
 }
 
@@ -198,7 +210,8 @@ Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const
   StateFile file = open_state(path, purpose);
   const PassRanges passes = passes_of(file, purpose);
   require_same_render(file, here, "here", purpose);
-  const std::vector<std::string> passed_over = file.load(state_of(scene, set, film));
+  const RenderState state = state_of(scene, set, film);
+  const std::vector<std::string> passed_over = file.load(state);
   const Metadata& metadata = file.metadata();
   Checkpoint checkpoint{passes,
                         open_pass_of(file),
@@ -206,9 +219,8 @@ Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const
                         value_of(metadata, kHistoryKey),
                         value_of(metadata, kChoicesKey),
                         value_of(metadata, kInstructionSetKey),
-                        {}};
-  for (const std::string& reason : passed_over)
-    checkpoint.warnings.push_back(reason + kLearnedAgain);
+                        warnings_of_learned(passed_over),
+                        passed_over.empty() && has_all(file, state.streams)};
   if (auto warning = warning_of_instruction_sets(file, here, "here"))
     checkpoint.warnings.push_back(std::move(*warning));
   return checkpoint;
@@ -218,18 +230,24 @@ Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const
 
 std::vector<std::string> learn_from(const std::string& path, const RenderIdentity& here,
                                     EstimatorSet& set, const Film& film) {
-  const std::string purpose = "take what it has learned";
-  StateFile file = open_state(path, purpose);
-  require_same_render(file, here, "here", purpose);
   RenderState state;
-  add_learned(set, film, state);
-  std::vector<std::string> warnings = file.load_streams(state);
-  for (std::string& warning : warnings) warning += kLearnedAgain;
-  if (warnings.empty() && std::ranges::none_of(set.learned, &LearningLoop::has_value))
-    warnings.push_back(file.path() +
-                       ": nothing learned is kept there; this render learns by itself");
-  if (auto warning = warning_of_instruction_sets(file, here, "here"))
-    warnings.push_back(std::move(*warning));
+  set.learned.resize(set.estimators.size());
+  for (size_t i = 0; i < set.learned.size(); ++i) add_learned(i, set, film, state);
+  const std::string purpose = "take what it has learned", alone = "; this render learns by itself";
+  std::vector<std::string> warnings;
+  try {
+    StateFile file = open_state(path, purpose);
+    require_same_render(file, here, "here", purpose);
+    // With another instruction set the last bits of what is learned may differ.
+    if (const auto warning = warning_of_instruction_sets(file, here, "here"))
+      warnings.push_back(*warning + alone);
+    else if (!has_all(file, state.streams))
+      warnings.push_back(file.path() + ": what was learned is not kept there" + alone);
+    else
+      warnings = warnings_of_learned(file.load_streams(state));
+  } catch (const IoError& error) {
+    warnings.push_back(error.what() + alone);
+  }
   return warnings;
 }
 

@@ -22,6 +22,7 @@ struct Checkpoint {
   std::string choices;                ///< the report of the last run
   std::string instruction_sets;
   std::vector<std::string> warnings;
+  bool has_learned = false;  ///< what was learned could be read as well
 };
 
 /// True if whole passes, rendered anywhere, can be added up: the passes of all estimators are
@@ -84,9 +85,10 @@ std::optional<std::string> warning_of_replacing(const std::string& output,
 Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const Scene& scene,
                       EstimatorSet& set, Film& film);
 
-/// Gives the estimators what the render of a picture, or a task of it, has learned. Returns
-/// warnings; what is not in its state is learned again. Throws UsageError with all differences if
-/// it belongs to another render, IoError if its state is missing or cannot be read.
+/// Gives the estimators what was learned for another picture of the same render, from its state.
+/// Returns warnings: if the state is missing, cannot be read or was rendered with other instruction
+/// sets, they learn by themselves. Throws UsageError with all differences if it belongs to another
+/// render.
 std::vector<std::string> learn_from(const std::string& path, const RenderIdentity& here,
                                     EstimatorSet& set, const Film& film);
 

@@ -99,6 +99,12 @@ std::vector<std::string> choices_report(const std::vector<EstimatorStatistics>& 
   return lines;
 }
 
+std::string text_of_unreached_pixels(const Film& film) {
+  return film.can_be_shown()
+             ? "pixels that it has not reached are as their neighbours"
+             : "some light is missing, and pixels that it has not reached may be black";
+}
+
 std::optional<std::string> error_report(const Film& film) {
   const std::optional<ErrorShares> shares = error_shares(film);
   if (!shares) return std::nullopt;

@@ -58,6 +58,20 @@ TEST(MissingCaustics, NoCausticsWithoutGlossyMaterials) {
   EXPECT_EQ(note_of(kGlass + "Material \"dielectric\"" + kSphere), "") << "there are photons";
 }
 
+TEST(MissingCaustics, PhotonsAreOutOfViewOnlyOnceTheyWereLookedFor) {
+  const auto scene = scene_from_text(kStart + kSphere);
+  const OwnedRoutes owned = owned_routes(*scene, {"all=C.*L:photons"});
+  EstimatorStatistics stopped;
+  stopped.photon_paths = stopped.photons_stored = 100;
+  EstimatorStatistics whole = stopped;
+  whole.camera_paths = 15;
+  explain_darkness(owned, 0, stopped);
+  EXPECT_TRUE(stopped.notes.empty());
+  explain_darkness(owned, 0, whole);
+  ASSERT_EQ(whole.notes.size(), 1u);
+  EXPECT_EQ(whole.notes[0], "100 photons stored, none near a point that the camera sees");
+}
+
 TEST(MissingCaustics, PhotonsNeedASurfaceToBeMergedAt) {
   const auto note = [](const std::string& world) {
     const auto scene = scene_from_text(kStart + world);

@@ -221,6 +221,36 @@ TEST_F(RenderSessionTest, SignalInTheLastPassComesTooLate) {
   EXPECT_EQ(run({}).reason, StopReason::kPasses);
 }
 
+TEST_F(RenderSessionTest, WhatTheFirstPassHasNotReachedIsSaid) {
+  FilmSettings settings;
+  settings.width = 200;
+  settings.height = 100;  // more pixels than the first lattice has
+  const size_t slices = Film(settings, set_.layout).slices().count_of_levels(1);
+  for (const size_t done : {size_t{1}, slices}) {
+    Film film(settings, set_.layout);
+    signals_.stop = 0;
+    script_.looks = 1;
+    script_.during_look = [&](const PassKey&, int) {
+      for (int y = 0; y < 100; ++y)
+        for (int x = 0; x < 200; ++x) {
+          const size_t slice = film.slices().slice_of(x, y);
+          if (slice < done) add_one(film, 0, x, y, {1, 1, 1});
+        }
+      for (size_t i = 0; i < done; ++i) film.finish_slice(0, i, 1);
+      signals_.stop = 2;
+    };
+    RenderSession session(scene_, set_, film, {});
+    session.use_clock([this] { return script_.now; });
+    EXPECT_TRUE(session.run(signals_).has_unfinished_pass);
+    const bool is_covered = done == slices;
+    EXPECT_EQ(film.value(199, 99).r, is_covered ? 1.0f : 0.0f);
+    EXPECT_EQ(film.value(1, 1).r, 1.0f);  // as its neighbour
+    const std::string said = is_covered ? "are as their neighbours" : "may be black";
+    EXPECT_NE(session.report().find("pixels that it has not reached " + said), std::string::npos)
+        << session.report();
+  }
+}
+
 TEST_F(RenderSessionTest, ProgressCountsAndForetells) {
   RenderOptions options;
   options.last_pass = 9;
