@@ -54,8 +54,8 @@ class Render {
  public:
   /// Prepares: routes, estimators, memory check, film, state of an earlier run. Keeps a reference
   /// to the scene. Throws UsageError and SceneError for a request that cannot be rendered, IoError
-  /// for a picture that cannot be resumed or written. What cannot be taken from
-  /// RenderRequest::learned_from is a warning.
+  /// for a picture that cannot be resumed or written. Warns if RenderRequest::learned_from cannot
+  /// be used.
   Render(const RenderRequest& request, const LoadedScene& loaded, RenderWarnings warnings = {});
   Render(const Render&) = delete;
   Render& operator=(const Render&) = delete;

@@ -1,7 +1,6 @@
 #include "input/mitsuba/spectrum_text.h"
 
 #include <charconv>
-#include <cmath>
 
 #include "core/color.h"
 #include "core/counted.h"

@@ -15,9 +15,9 @@ constexpr uint64_t kTrialStream = 0x747269616c;  // "trial"
 /// Passes per trial, and camera paths per pixel and pass.
 constexpr uint32_t kTrialPasses = 2, kTrialSamples = 2;
 
-/// Most photons that a pass is expected to keep, over the default of memory_photons: a margin for
-/// random variation. The user's memory does not count, so that it does not change the picture.
-constexpr double kExpectedPhotons = 0.95;
+/// A pass is planned to keep at most this share of the default of memory_photons, because the
+/// number varies. The user's own limit does not count: it must not change the picture.
+constexpr double kShareOfMemory = 0.95;
 
 /// First merge radius for photons of all light over that for caustic photons.
 constexpr float kRadiusOfAllLight = 4.0f / 3;
@@ -129,7 +129,7 @@ Candidate Trials::run(const PairTechniques& techniques, const EmissionGuide& emi
   const Trial found = trial_of(split_noise(passes, tiles_, kTrialSamples), counts, techniques,
                                static_cast<double>(records * stride));
   Balance balance(found);
-  balance.max_photons = kExpectedPhotons * static_cast<double>(IntegratorOptions{}.memory_photons);
+  balance.max_photons = kShareOfMemory * static_cast<double>(IntegratorOptions{}.memory_photons);
   balance.scale = static_cast<double>(film_.bounds().area()) / pixels_;
   // The variance due to photons is inversely proportional to the merge area.
   balance.variance_of_light /= photons_for_one(techniques);

@@ -20,7 +20,7 @@ std::vector<std::string> choices_report(const std::vector<EstimatorStatistics>& 
 /// were rendered. Only `bdpt`, `vcm`, `bpm` and `path+photons` count them.
 std::vector<std::string> technique_report(const std::vector<EstimatorStatistics>& statistics);
 
-/// What stands for pixels that the first pass of a film has not reached yet.
+/// Says how pixels look that the first pass of a film has not reached yet.
 std::string text_of_unreached_pixels(const Film& film);
 
 /// A line with the film's estimated errors, by the routes that are sampled together. Empty while
