@@ -73,7 +73,11 @@ SensorWeights sensor_weights(const SampledWavelengths& lambda, const RgbColorSpa
   for (int i = 0; i < kSpectrumSamples; ++i) {
     const float pdf = lambda.pdf()[i];
     if (pdf == 0.0f) continue;
-    Rgb at = curves[nearest_node(lambda.lambda(i))];
+    // Values of the nearest nanometre would be right on average, but give white light a tint.
+    const float position = lambda.lambda(i) - kLambdaMin;
+    const int node = std::min(static_cast<int>(position), kTableNodes - 2);
+    const float t = position - static_cast<float>(node);
+    Rgb at = curves[node] * (1.0f - t) + curves[node + 1] * t;
     if (balance) at = *balance * at;
     const float s = scale / pdf;
     weights.rgb[0].set(i, at.r * s);

@@ -118,8 +118,9 @@ inline constexpr int kAllWavelengths = -1;
 /// default the first: it survives where wavelengths separate, as in a prism.
 class SampledWavelengths {
  public:
-  /// kSpectrumSamples wavelengths, equally spaced in the cumulative distribution of a density that
-  /// follows the eye's sensitivity (pbrt-v4 section 4.5.4), rotated by u in [0,1).
+  /// kSpectrumSamples wavelengths at equal steps of a cumulative distribution, rotated by u in
+  /// [0,1). Its density follows the film's curves, so that white light has nearly the same colour
+  /// for every u (docs/adr/0046-wavelengths-are-a-quadrature.md).
   static SampledWavelengths sample_visible(float u);
   /// Density of sample_visible at `lambda`, in 1/nm; zero outside [360, 830] nm.
   static float visible_pdf(float lambda);

@@ -2,14 +2,16 @@
 // with all wavelengths or with the hero alone.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "core/color.h"
 #include "core/spectra.h"
 
 namespace nephroid {
 namespace {
 
-/// Mean sensor response over `n` midpoints of u. The curves are looked up at the nearest nanometre,
-/// so the integrand has 471 steps and the error is about one step in n.
+/// Mean sensor response over `n` midpoints of u.
 Rgb mean_response(const RgbColorSpace& space, const Spectrum& light, float scale, bool hero_only,
                   float imaging_ratio = 1) {
   const int n = 40000;
@@ -65,6 +67,35 @@ TEST(Sensor, DroppedWavelengthsWeighNothing) {
     EXPECT_FLOAT_EQ(after.rgb[c][0], before.rgb[c][0] * kSpectrumSamples);
     for (int i = 1; i < kSpectrumSamples; ++i) EXPECT_EQ(after.rgb[c][i], 0.0f);
   }
+}
+
+/// How far the colour that eight wavelengths show of a light is from its mean over their offset in
+/// the spectrum: rms of each channel, over the mean of the channel.
+std::array<double, 3> tint(const Spectrum& light) {
+  const int n = 4096;
+  std::array<double, 3> sum{}, squares{};
+  for (int k = 0; k < n; ++k) {
+    // Offsets that differ by an eighth have the same wavelengths, in another order.
+    const auto lambda =
+        SampledWavelengths::sample_visible((static_cast<float>(k) + 0.5f) / (n * kSpectrumSamples));
+    const Rgb seen = sensor_weights(lambda, RgbColorSpace::srgb(), 1).apply(light.sample(lambda));
+    for (size_t c = 0; c < 3; ++c) {
+      sum[c] += seen[static_cast<int>(c)];
+      squares[c] += double{seen[static_cast<int>(c)]} * seen[static_cast<int>(c)];
+    }
+  }
+  std::array<double, 3> result{};
+  for (size_t c = 0; c < 3; ++c) result[c] = std::sqrt(squares[c] * n / (sum[c] * sum[c]) - 1);
+  return result;
+}
+
+TEST(Sensor, EightWavelengthsShowTheColourOfWhiteLight) {
+  for (const char* name : {"stdillum-D65", "stdillum-D50", "stdillum-A"}) {
+    const SpectrumPtr light = named_spectrum(name);
+    ASSERT_TRUE(light) << name;
+    for (const double channel : tint(*light)) EXPECT_LT(channel, 0.009) << name;
+  }
+  for (const double channel : tint(*constant_spectrum(1))) EXPECT_LT(channel, 0.009) << "flat";
 }
 
 }  // namespace

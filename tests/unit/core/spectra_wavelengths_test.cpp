@@ -12,20 +12,18 @@
 namespace nephroid {
 namespace {
 
-/// Integral of visible_pdf over [a, b] by Simpson's rule.
+/// Integral of visible_pdf over [a, b], by the midpoint rule with steps much shorter than those in
+/// which the density is constant.
 double visible_integral(double a, double b) {
-  const int steps = 200;
+  const int steps = static_cast<int>((b - a) * 50) + 1;
   const double h = (b - a) / steps;
   double sum = 0;
-  for (int i = 0; i <= steps; ++i) {
-    const double weight = i == 0 || i == steps ? 1 : i % 2 ? 4 : 2;
-    sum += weight * SampledWavelengths::visible_pdf(static_cast<float>(a + i * h));
-  }
-  return sum * h / 3;
+  for (int i = 0; i < steps; ++i)
+    sum += SampledWavelengths::visible_pdf(static_cast<float>(a + (i + 0.5) * h));
+  return sum * h;
 }
 
 TEST(SampledWavelengths, VisibleDensityIntegratesToOne) {
-  // The density's constants have eight digits, floats have seven.
   EXPECT_NEAR(visible_integral(360, 830), 1.0, 1e-5);
   EXPECT_EQ(SampledWavelengths::visible_pdf(359.9f), 0.0f);
   EXPECT_EQ(SampledWavelengths::visible_pdf(830.1f), 0.0f);
