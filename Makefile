@@ -97,7 +97,7 @@ asan tsan: deps
 # build/fuzz/corpus, what they find in build/fuzz/found. OpenImageIO loses the text of an error of libpng.
 FUZZ_TIME ?= 1200
 FUZZ_TARGETS ?= scene ply obj gltf mitsuba serialized volume bsdf routes image environment nanovdb \
-  checkpoint command view_request
+  checkpoint learned command view_request
 fuzz: deps-clang
 	@cmake --preset fuzz >/dev/null
 	@cmake --build --preset fuzz

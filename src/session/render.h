@@ -60,7 +60,7 @@ class Render {
   Render(const Render&) = delete;
   Render& operator=(const Render&) = delete;
 
-  /// Called after every pass.
+  /// Called after every pass, and several times a second within it.
   void on_progress(std::function<void(const RenderProgress&)> callback);
   /// Called with pictures on their way, see RenderSession.
   void on_picture(std::function<void(const ShownPicture&)> callback);

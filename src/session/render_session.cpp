@@ -84,7 +84,6 @@ RenderSession::RenderSession(const Scene& scene, EstimatorSet& set, Film& film,
   done_ = options_.begin_with.passes;
   passes_before_ = passes_done_ = static_cast<uint32_t>(done_.count());
   open_pass_ = options_.begin_with.open_pass;
-  fraction_before_ = fraction_of_pass();
   if (options_.last_pass)
     passes_wanted_ = *options_.last_pass - options_.first_pass + 1;
   else if (!(options_.time_limit > 0) && !(options_.noise_target > 0))
@@ -201,11 +200,13 @@ bool RenderSession::render_one_pass(SignalFlags& signals) {
   PassWatch watch(signals, clock_, [&] { look_in(signals, watch); });
   watch.wake_at(begin);
   open_pass_ = key.pass;
+  forecast_.begin(begin, progress_of_groups());
   try {
     set_.render_pass(key, scene_, film_, watch);
   } catch (const PassStopped&) {
     return false;
   }
+  forecast_.end(clock_());
   open_pass_.reset();
   film_.finish_pass();
   done_.add(key.pass);
@@ -217,8 +218,7 @@ std::optional<StopReason> RenderSession::reason_to_end_pass(const SignalFlags& s
   if (signals.stop.load() != 0) return StopReason::kSignal;
   // A time limit waits until there is a picture to show.
   const bool has_light = film_.can_be_shown();
-  if (options_.time_limit > 0 && has_light && seconds_of_all_runs() >= options_.time_limit)
-    return StopReason::kTime;
+  if (has_light && is_past_time_limit()) return StopReason::kTime;
   return std::nullopt;
 }
 
@@ -241,11 +241,11 @@ void RenderSession::look_in(SignalFlags& signals, PassWatch& watch) {
   watch.wake_at(start_ + std::max(wake, elapsed() + kShortestWait));
 }
 
-double RenderSession::fraction_of_pass() const {
-  double done = 0;
-  const int groups = film_.layout().group_count();
-  for (int g = 0; g < groups; ++g) done += film_.fraction_of_pass(g);
-  return groups > 0 ? done / groups : 0;
+std::vector<double> RenderSession::progress_of_groups() const {
+  std::vector<double> fractions(film_.layout().group_count());
+  for (size_t g = 0; g < fractions.size(); ++g)
+    fractions[g] = film_.fraction_of_pass(static_cast<int>(g));
+  return fractions;
 }
 
 std::vector<EstimatorStatistics> RenderSession::statistics() const {
@@ -257,8 +257,7 @@ std::optional<StopReason> RenderSession::reason_to_stop(const SignalFlags& signa
   if (options_.noise_target > 0 && error_pass_ == passes_done_ &&
       passes_done_ >= kMinPassesForNoise && error_ && error_->total() <= options_.noise_target)
     return StopReason::kNoise;
-  if (options_.time_limit > 0 && seconds_of_all_runs() >= options_.time_limit)
-    return StopReason::kTime;
+  if (is_past_time_limit()) return StopReason::kTime;
   if (signals.stop.load() != 0) return StopReason::kSignal;
   return std::nullopt;
 }
@@ -301,34 +300,42 @@ uint32_t RenderSession::passes_done_of_wanted() const {
   return static_cast<uint32_t>(done_.count({options_.first_pass, last}));
 }
 
-std::optional<double> RenderSession::seconds_left(double seconds) const {
+std::optional<double> RenderSession::seconds_left() const {
   std::optional<double> left;
   const auto at_most = [&](double candidate) {
     left = std::max(0.0, left ? std::min(*left, candidate) : candidate);
   };
-  const double part = open_pass_ ? fraction_of_pass() : 0;
-  const double passes = passes_of_run() + part - fraction_before_;
-  const double per_pass = passes > 0 ? seconds / passes : kInfinity;
-  if (passes_wanted_ && passes > 0)
-    at_most(per_pass * (static_cast<double>(*passes_wanted_) - passes_done_of_wanted() - part));
-  if (options_.time_limit > 0) at_most(options_.time_limit - options_.begin_with.seconds - seconds);
-  if (options_.noise_target > 0 && error_ && error_->total() > 0 && passes > 0)
-    at_most(per_pass * (error_pass_ * passes_to(*error_, options_.noise_target) - passes_done_));
+  const std::optional<double> of_open = forecast_.seconds_left(clock_());
+  const std::optional<double> per_pass = forecast_.seconds_of_pass();
+  if (passes_wanted_ && per_pass && of_open) {
+    const double others = static_cast<double>(*passes_wanted_) - passes_done_of_wanted();
+    at_most(*of_open + *per_pass * (open_pass_ ? others - 1 : others));
+  }
+  if (is_past_time_limit()) {
+    if (of_open) at_most(*of_open);
+  } else if (options_.time_limit > 0) {
+    at_most(options_.time_limit - seconds_of_all_runs());
+  }
+  if (options_.noise_target > 0 && error_ && error_->total() > 0 && per_pass)
+    at_most(*per_pass * (error_pass_ * passes_to(*error_, options_.noise_target) - passes_done_));
   return left;
 }
 
 void RenderSession::report_progress(bool within_pass) {
   if (!progress_) return;
+  if (within_pass) forecast_.look(clock_(), progress_of_groups());
   RenderProgress progress;
   progress.within_pass = within_pass;
   progress.passes_done = passes_done_of_wanted();
   progress.passes_wanted = passes_wanted_;
   progress.seconds = elapsed();
-  progress.seconds_left = seconds_left(progress.seconds);
+  progress.seconds_left = seconds_left();
   if (error_ && !is_black_) progress.error = error_->total();
   if (progress.seconds_left) {
     const double total = progress.seconds + *progress.seconds_left;
     progress.fraction = total > 0 ? progress.seconds / total : 1;
+  } else if (is_past_time_limit()) {
+    progress.fraction = 1;
   }
   for (const EstimatorStatistics& s : statistics()) {
     progress.rays += s.rays;

@@ -14,6 +14,7 @@
 #include "film/image_io.h"
 #include "integrator/presets/estimator_set.h"
 #include "session/checkpoint/checkpoint.h"
+#include "session/pass_forecast.h"
 #include "session/pass_watch.h"
 #include "session/report/noise.h"
 #include "session/signals.h"
@@ -123,6 +124,9 @@ class RenderSession {
   std::optional<StopReason> reason_to_stop(const SignalFlags& signals) const;
   double elapsed() const { return clock_() - start_; }
   double seconds_of_all_runs() const { return options_.begin_with.seconds + elapsed(); }
+  bool is_past_time_limit() const {
+    return options_.time_limit > 0 && seconds_of_all_runs() >= options_.time_limit;
+  }
   std::optional<uint32_t> next_pass() const;
   /// True if a pass is in the wanted range.
   bool is_wanted(uint32_t pass) const;
@@ -135,8 +139,8 @@ class RenderSession {
   void look_in(SignalFlags& signals, PassWatch& watch);
   /// The reason to stop within a pass.
   std::optional<StopReason> reason_to_end_pass(const SignalFlags& signals) const;
-  /// Progress of the unfinished pass, 0..1.
-  double fraction_of_pass() const;
+  /// Progress of each group of estimates in the unfinished pass, 0..1.
+  std::vector<double> progress_of_groups() const;
   std::vector<EstimatorStatistics> statistics() const;
   /// Error, its text and faults of the result.
   void report_errors(RenderResult* result);
@@ -163,7 +167,7 @@ class RenderSession {
   /// Writes, warns of errors, and returns the time of the next write.
   double write_now(double interval, const std::function<void()>& write);
   uint32_t passes_done_of_wanted() const;
-  std::optional<double> seconds_left(double seconds) const;
+  std::optional<double> seconds_left() const;
   std::string choices_text() const;
   Metadata state_metadata() const;
 
@@ -183,7 +187,7 @@ class RenderSession {
   PassRanges done_;
   uint32_t passes_before_ = 0, passes_done_ = 0;  ///< passes before this run, and in all runs
   std::optional<uint32_t> open_pass_;             ///< unfinished pass
-  double fraction_before_ = 0;                    ///< fraction of open_pass_ done in other runs
+  PassForecast forecast_;
   std::optional<EstimatedError> error_;
   bool is_black_ = false;    ///< true: error_ is 0 and not reported
   uint32_t error_pass_ = 0;  ///< passes done when error_ was estimated

@@ -58,10 +58,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Target{"obj", fuzz::obj}, Target{"bsdf", fuzz::bsdf},
                       Target{"routes", fuzz::routes}, Target{"image", fuzz::image},
                       Target{"environment", fuzz::environment}, Target{"nanovdb", fuzz::nanovdb},
-                      Target{"checkpoint", fuzz::checkpoint}, Target{"command", fuzz::command},
-                      Target{"gltf", fuzz::gltf}, Target{"mitsuba", fuzz::mitsuba},
-                      Target{"serialized", fuzz::serialized}, Target{"volume", fuzz::volume},
-                      Target{"view_request", fuzz::view_request}),
+                      Target{"checkpoint", fuzz::checkpoint}, Target{"learned", fuzz::learned},
+                      Target{"command", fuzz::command}, Target{"gltf", fuzz::gltf},
+                      Target{"mitsuba", fuzz::mitsuba}, Target{"serialized", fuzz::serialized},
+                      Target{"volume", fuzz::volume}, Target{"view_request", fuzz::view_request}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
