@@ -35,7 +35,7 @@ SUITE = {
     "glass-of-water": ("912x512", MERGING),
     "veach-bidir": ("512x512", MERGING),
     "coffee": ("400x500", PATHS),
-    "staircase2": ("512x512", PATHS),
+    "staircase2": ("512x512", MERGING),
     "pool": ("960x540", MERGING),
     "coffee-cup": ("800x600", MERGING),
     "cut-gems": ("720x512", MERGING),

@@ -11,6 +11,7 @@ namespace {
 
 constexpr const char* kScene = "";
 constexpr const char* kOtherName = " (scenes of this format have names that end in .gltf or .glb)";
+constexpr const char* kMitsuba = " (scenes of this format have names that end in .xml)";
 constexpr const char* kObj =
     " (OBJ files are scenes if their names end in .obj; in scenes, meshes are PLY files)";
 constexpr const char* kMesh = " (meshes are read as PLY, by Shape \"plymesh\")";
@@ -80,7 +81,7 @@ Format xml_format(std::string_view text) {
   constexpr size_t kHead = 4096;
   const std::string_view head = text.substr(0, kHead);
   const auto has = [&](const char* tag) { return head.find(tag) != std::string_view::npos; };
-  if (has("<scene")) return {"", "a Mitsuba scene", kScene};
+  if (has("<scene")) return {"", "a Mitsuba scene", kMitsuba};
   if (has("<COLLADA")) return {"", "a COLLADA scene", kScene};
   return {"", "an XML file", kScene};
 }

@@ -32,8 +32,7 @@ constexpr MaterialRow kMaterials[] = {
     {"mirror", "conductor", "Material \"conductor\""},
     {"substrate", nullptr,
      "Material \"coateddiffuse\" with \"reflectance\", \"uroughness\" and \"vroughness\""},
-    {"disney", nullptr,
-     "Material \"coateddiffuse\", \"conductor\" or \"dielectric\", by what it is to look like"},
+    {"disney", nullptr, "Material \"principled\""},
     {"fourier", nullptr, "Material \"measured\""},
 };
 

@@ -217,20 +217,21 @@ class SceneBuilder {
                        "up to 1e17");
   }
 
-  // In smaller scenes path densities and the ray tracer's products leave the range of single
-  // precision. Images are then wrong: too dark by path tracing, many times too bright by photon
+  // In smaller and larger scenes path densities and the ray tracer's products leave the range of
+  // single precision. Images are then wrong: too dark by path tracing, too bright by photon
   // merging.
   void check_size(const SourceLocation& file) const {
-    constexpr float kMinRadius = 1e-8f, kMaxRadius = 1e12f;
+    constexpr float kMinRadius = 1e-8f, kMaxRadius = 1e13f;
     if (scene_->shape_count > 0 && scene_->sphere.radius < kMinRadius)
       throw SceneError(
           file,
           "the scene's radius is below 1e-8 units, expected at least 1e-8: use a smaller unit of "
           "length, or a Scale before the camera and one after WorldBegin");
     if (scene_->sphere.radius > kMaxRadius)
-      diagnostics_.warn(file,
-                        "the scene's radius is above 1e12 units, expected at most 1e12: about "
-                        "0.4 % of the light is lost");
+      throw SceneError(
+          file,
+          "the scene's radius is above 1e13 units, expected at most 1e13: use a larger unit of "
+          "length, or a Scale before the camera and one after WorldBegin");
   }
 
   // The origin of pbrt-v4's rendering space: the camera in the middle of its motion.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "caster_pictures.h"
+#include "rendering.h"
 
 namespace nephroid {
 namespace {
@@ -96,6 +97,31 @@ TEST_P(MediumPhotonsIn, FindCausticsOfAPointLight) {
   const PairTechniques connecting{.light_paths = 16384, .connects = true};
   expect_equal(of.pictures(gathering_in_media(), 1, 32), of.pictures(connecting, 1000, 32),
                GetParam().name);
+}
+
+// No trial has a say in whether photons are traced here: they or light paths alone find a tenth of
+// the light.
+TEST(MixedInFog, HasTheCausticsOfAPointLight) {
+  const auto scene = scene_from_text(R"(
+    LookAt 0 1.4 -6  0 1.3 0  0 1 0
+    Camera "perspective" "float fov" 36
+    Film "rgb" "integer xresolution" 60 "integer yresolution" 40
+    PixelFilter "box"
+    WorldBegin
+  )" + in_fog(kFogs[0], R"(
+    LightSource "point" "rgb I" [9 8 7] "point3 from" [0.5 2.6 0.2]
+    Material "dielectric"
+    AttributeBegin Translate 0.2 1.5 0 Shape "sphere" "float radius" 0.7 AttributeEnd
+    Material "diffuse" "rgb reflectance" [0.6 0.6 0.6]
+    Shape "bilinearmesh" "point3 P" [-2 0 -2  2 0 -2  -2 0 2  2 0 2])"));
+  const auto mean = [&](const char* plan, uint64_t seed) {
+    return estimate_of(block_values(*scene, plan, {}, 16, 4, seed)[0]);
+  };
+  const Estimate mixed = mean("mixed", 1), bdpt = mean("bdpt", 100), path = mean("path", 200);
+  for (const Estimate& e : {mixed, bdpt, path}) EXPECT_LT(e.error, max_error(0.01 * e.mean));
+  // Merging loses some light at the edges of the fog.
+  EXPECT_NEAR(mixed.mean, bdpt.mean, 0.03 * bdpt.mean);
+  EXPECT_LT(path.mean, 0.94 * mixed.mean);
 }
 
 // The wall's upper side is in fog, but it names empty space for it.

@@ -5,6 +5,7 @@
 #include "core/parallel.h"
 #include "rendering.h"
 #include "session/film_of_scene.h"
+#include "session/learn_lights.h"
 #include "session/report/noise.h"
 
 namespace nephroid {
@@ -116,6 +117,45 @@ TEST(OutliersOfPhotons, CausticsStay) {
   EXPECT_GT(energy_shares(plain).routes[0], 0.03);
   EXPECT_GT(caustic(film), 0.97 * caustic(plain));
   EXPECT_LT(energy_shares(film).outliers, 0.02);
+}
+
+// A window and a small lamp light a table, without glass. Light that is only sampled rarely is not
+// an outlier: no region loses it.
+TEST(OutliersOfMixed, NoRegionLosesLightThatIsSampledRarely) {
+  const auto scene = scene_from_text(R"(
+    Scale -1 1 1
+    LookAt 18.8091 -25.8885 16  0 0 3.2  0 0 1
+    Camera "perspective" "float fov" 28
+    Film "rgb" "integer xresolution" 320 "integer yresolution" 240
+    WorldBegin
+    AttributeBegin
+      AreaLightSource "diffuse" "blackbody L" 6500 "float scale" 2.5
+      Shape "bilinearmesh" "point3 P" [-40 -20 5  -40 20 5  -40 -20 45  -40 20 45]
+    AttributeEnd
+    AttributeBegin
+      Translate 12 18 22
+      AreaLightSource "diffuse" "blackbody L" 4000 "float scale" 500
+      Shape "sphere" "float radius" 0.6
+    AttributeEnd
+    Material "diffuse" "rgb reflectance" [0.5 0.45 0.4]
+    Shape "bilinearmesh" "point3 P" [-100 -60 0  100 -60 0  -100 100 0  100 100 0])");
+  SignalFlags signals;
+  ASSERT_TRUE(learn_lights(*scene, signals, [] { return 0.0; }));
+  constexpr int kRegion = 16, kAcross = 320 / kRegion, kRegions = kAcross * 240 / kRegion;
+  const SeedValues found = values_over_seeds(8, 0, [&](uint64_t seed) {
+    const Film film = render_rejecting(*scene, "mixed", seed, 4);
+    std::vector<double> sums(2 * kRegions, 0.0);
+    for_each_channel(film, [&](int x, int y, int c) {
+      const auto region = static_cast<size_t>(y / kRegion * kAcross + x / kRegion);
+      const auto held = static_cast<double>(film.outliers(x, y)[c]);
+      sums[2 * region] += held;
+      sums[2 * region + 1] += held + static_cast<double>(film.value(x, y)[c]);
+    });
+    return sums;
+  });
+  for (size_t region = 0; region < kRegions; ++region)
+    EXPECT_LE(estimate_of(found[2 * region]).mean, 0.01 * estimate_of(found[2 * region + 1]).mean)
+        << region;
 }
 
 }  // namespace

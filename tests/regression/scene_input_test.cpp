@@ -56,6 +56,13 @@ TEST(SceneInput, UnknownNamesAreWarningsAndErrorsUnderStrict) {
   folder.expect_picture({message});
 }
 
+TEST(SceneInput, NamesOfPbrtV3AreUnderstoodUnderStrictToo) {
+  const SceneFolder folder(kHead + "Material \"matte\" \"rgb Kd\" [0.5 0.4 0.3]\n" + kTriangle);
+  const ProgramRun run = folder.render({"--strict"});
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_NE(run.errors.find("pbrt-v3"), std::string::npos) << run.errors;
+}
+
 TEST(SceneInput, ClassesOfMaterialsAreListedAndWhatIsNormalIsNoWarning) {
   testing::TriangleScene scene;
   scene.primitive_members = ",\"material\":0";
@@ -105,6 +112,10 @@ TEST(SceneInput, ForeignFilesAreCalledByTheirName) {
   SceneFolder("mtllib a.mtl\nv 0 0 0\n")
       .expect_error(kScene,
                     "scene.pbrt:1:1: this is a Wavefront OBJ mesh, expected a pbrt-v4 scene");
+  SceneFolder("<scene version=\"3.0.0\">\n")
+      .expect_error(kScene,
+                    "scene.pbrt:1:1: this is a Mitsuba scene, expected a pbrt-v4 scene (scenes of "
+                    "this format have names that end in .xml)");
 }
 
 }  // namespace

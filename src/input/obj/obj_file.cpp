@@ -133,6 +133,7 @@ void ObjReader::read_normal(std::string_view text) {
   std::array<float, 3> n{};
   read_numbers(text, 3, &n);
   const Vec3f normal(n[0], n[1], n[2]);
+  if (!is_finite(normal)) ignored_.add("vn not finite", line_);
   normals_.push_back(is_finite(normal) ? normal : Vec3f(0, 0, 0));
 }
 
@@ -243,8 +244,9 @@ void ObjReader::read_face(std::string_view text) {
     corners_.push_back(corner);
     ring_.push_back(position);
   }
-  if (corners_.size() < 3)
-    fail("the face has " + counted(corners_.size(), "corner") + ", expected at least 3");
+  if (corners_.empty()) fail("the face has no corners, expected at least 3");
+  // A triangle without area: the check of the mesh removes and counts it.
+  while (corners_.size() < 3) corners_.push_back(corners_.back());
   if (is_smooth_ && !has_normals) ignored_.add("s", line_);
   add_triangles(part_for(has_uvs, has_normals));
 }

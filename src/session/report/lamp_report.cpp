@@ -13,7 +13,7 @@ namespace nephroid {
 namespace {
 
 /// Maximum number of lights that are named; the rest is summed up.
-constexpr size_t kMaxNamed = 5, kMaxNamedDark = 3;
+constexpr size_t kMaxNamedLamps = 5, kMaxNamedDark = 3;
 
 /// Light per lamp of all estimators. Empty if one of them does not count lamps separately.
 std::optional<std::vector<LampLight>> lamps_of(const std::vector<EstimatorStatistics>& statistics) {
@@ -43,7 +43,7 @@ std::string line_of_shares(const std::vector<LampLight>& brightest, double total
   std::string line = "light by lamp:";
   size_t named = brightest.size();
   // A single further light is named as well: "1 others" would not be shorter.
-  if (named > kMaxNamed + 1) named = kMaxNamed;
+  if (named > kMaxNamedLamps + 1) named = kMaxNamedLamps;
   double rest = total;
   for (size_t i = 0; i < named; ++i) {
     line += fmt::format("{} {} {:.3g} %", i == 0 ? "" : ",", brightest[i].name,

@@ -44,10 +44,10 @@ std::vector<std::string> notes_of_short_paths(const Scene& scene, const RenderSe
         first_material(scene, [](const Material& material) { return material.refracts(); });
     if (glass)
       notes.push_back(fmt::format(
-          "{} {} {}: it casts no caustics and {}, expected at least {} scattering events", ends,
+          "{} {} {}: no light goes through it and {}, expected at least {} scattering events", ends,
           depth < kEventsThroughGlass ? "inside" : "behind", name_of_material(scene, *glass),
-          depth < kEventsThroughGlass ? "is black except for lights in it"
-                                      : "shows only lights behind it",
+          depth < kEventsThroughGlass ? "only lights in it are seen"
+                                      : "only lights are seen through it",
           kEventsThroughGlass + 1));
   }
   if (depth <= kEventsAtMirror) {

@@ -28,6 +28,9 @@ class ObjFileTest : public ::testing::Test {
   }
   std::string warnings_of(const std::string& text) {
     read(text);
+    return warnings();
+  }
+  std::string warnings() const {
     std::string all;
     for (const Warning& warning : diagnostics.warnings())
       all += std::to_string(warning.where.line) + ": " + warning.message + "\n";
@@ -71,6 +74,22 @@ TEST_F(ObjFileTest, PolygonsKeepTheirAreaConvexOrNot) {
     area += part;
   }
   EXPECT_DOUBLE_EQ(area, 10);  // shoelace formula
+}
+
+// The check of the mesh removes such faces and counts them.
+TEST_F(ObjFileTest, FacesOfOneOrTwoCornersHaveNoArea) {
+  const ObjFile file = read(std::string(kObjSquare) + "f 1 2\nf 3\n");
+  EXPECT_EQ(file.parts.at(0).mesh.triangles, (std::vector<uint32_t>{0, 1, 1, 2, 2, 2}));
+}
+
+TEST_F(ObjFileTest, NormalsThatAreNotFiniteLeaveTheFacesTheirOwn) {
+  const std::string text =
+      std::string(kObjSquare) + "vn nan 0 1\nvn 0 0 1\nvn 0 inf 0\nf 1//1 2//2 3//3\n";
+  EXPECT_EQ(read(text).parts.at(0).mesh.normals,
+            (std::vector<Vec3f>{Vec3f(0, 0, 0), Vec3f(0, 0, 1), Vec3f(0, 0, 0)}));
+  EXPECT_EQ(warnings(),
+            "5: 2 lines \"vn not finite\" are ignored, this is the first: faces have their own "
+            "normal there\n");
 }
 
 TEST_F(ObjFileTest, APartIsAnObjectAGroupAndAMaterial) {
@@ -119,7 +138,7 @@ TEST_F(ObjFileTest, WrongLinesAreErrors) {
   EXPECT_EQ(error_in("vn 0 0 1 1\n"), ":1: the line has too many numbers, expected at most 3");
   EXPECT_EQ(error_in("v 0 0 0 0 0 0 0 0 0\n"),
             ":1: the line has too many numbers, expected at most 8");
-  EXPECT_EQ(error_in(square + "f 1 2\n"), ":5: the face has 2 corners, expected at least 3");
+  EXPECT_EQ(error_in(square + "f\n"), ":5: the face has no corners, expected at least 3");
   EXPECT_EQ(error_in(square + "f 1 2 5\n"),
             ":5: vertex index 5 is out of range, there are 4 so far, counted from 1 (or back "
             "from -1)");

@@ -31,7 +31,7 @@ std::string option_error(const std::string& text) {
   return "no error";
 }
 
-TEST(SceneSize, ScenesTooSmallForSinglePrecisionAreRefused) {
+TEST(SceneSize, ScenesTooSmallOrTooLargeForSinglePrecisionAreRefused) {
   const auto scene = [](const std::string& radius) {
     return "LookAt 0 0 1 0 0 0 0 1 0\nWorldBegin\nShape \"sphere\" \"float radius\" " + radius +
            "\nAttributeBegin AttributeEnd";
@@ -40,13 +40,17 @@ TEST(SceneSize, ScenesTooSmallForSinglePrecisionAreRefused) {
   const auto build_text = [&](const std::string& text) {
     build_scene(parse_pbrt_string(text, "test.pbrt", ".", diagnostics), {}, diagnostics);
   };
-  EXPECT_NO_THROW(build_text(scene("1e-7")));
-  try {
-    build_text(scene("1e-9"));
-    ADD_FAILURE() << "no error";
-  } catch (const SceneError& error) {
-    EXPECT_NE(std::string(error.what()).find("below 1e-8 units"), std::string::npos);
-  }
+  const auto expect_refused = [&](const std::string& radius, const char* message) {
+    try {
+      build_text(scene(radius));
+      ADD_FAILURE() << radius << ": no error";
+    } catch (const SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+    }
+  };
+  for (const char* radius : {"1e-7", "1e12", "5e12"}) EXPECT_NO_THROW(build_text(scene(radius)));
+  expect_refused("1e-9", "below 1e-8 units");
+  expect_refused("2e13", "above 1e13 units");
 }
 
 TEST(SceneOptions, Defaults) {

@@ -1,0 +1,66 @@
+// What a session tells of its progress: passes, time left, error, counts.
+#include <algorithm>
+
+#include "session/render_session.h"
+
+namespace nephroid {
+
+std::vector<double> RenderSession::progress_of_groups() const {
+  std::vector<double> fractions(film_.layout().group_count());
+  for (size_t g = 0; g < fractions.size(); ++g)
+    fractions[g] = film_.fraction_of_pass(static_cast<int>(g));
+  return fractions;
+}
+
+/// The picture may also have passes outside of the wanted range; these do not count.
+uint32_t RenderSession::passes_done_of_wanted() const {
+  if (!passes_wanted_) return passes_done_;
+  const uint32_t last = options_.first_pass + (*passes_wanted_ - 1);
+  return static_cast<uint32_t>(done_.count({options_.first_pass, last}));
+}
+
+std::optional<double> RenderSession::seconds_left() const {
+  std::optional<double> left;
+  const auto at_most = [&](double candidate) {
+    left = std::max(0.0, left ? std::min(*left, candidate) : candidate);
+  };
+  const std::optional<double> of_open = forecast_.seconds_left(clock_());
+  const std::optional<double> per_pass = forecast_.seconds_of_pass();
+  if (passes_wanted_ && per_pass && of_open) {
+    const double others = static_cast<double>(*passes_wanted_) - passes_done_of_wanted();
+    at_most(*of_open + *per_pass * (open_pass_ ? others - 1 : others));
+  }
+  if (is_past_time_limit()) {
+    if (of_open) at_most(*of_open);
+  } else if (options_.time_limit > 0) {
+    at_most(options_.time_limit - seconds_of_all_runs());
+  }
+  if (options_.noise_target > 0 && error_ && error_->total() > 0 && per_pass)
+    at_most(*per_pass * (error_pass_ * passes_to(*error_, options_.noise_target) - passes_done_));
+  return left;
+}
+
+void RenderSession::report_progress(bool within_pass) {
+  if (!progress_) return;
+  if (within_pass) forecast_.look(clock_(), progress_of_groups());
+  RenderProgress progress;
+  progress.within_pass = within_pass;
+  progress.passes_done = passes_done_of_wanted();
+  progress.passes_wanted = passes_wanted_;
+  progress.seconds = elapsed();
+  progress.seconds_left = seconds_left();
+  if (error_ && !is_black_) progress.error = error_->total();
+  if (progress.seconds_left) {
+    const double total = progress.seconds + *progress.seconds_left;
+    progress.fraction = total > 0 ? progress.seconds / total : 1;
+  } else if (is_past_time_limit()) {
+    progress.fraction = 1;
+  }
+  for (const EstimatorStatistics& s : statistics()) {
+    progress.rays += s.rays;
+    progress.photons_stored += s.photons_stored;
+  }
+  progress_(progress);
+}
+
+}  // namespace nephroid
