@@ -8,8 +8,8 @@
 #include <cstring>
 #include <span>
 
+#include "core/color_fit.h"
 #include "core/spectra_data.h"
-#include "core/spectra_dense.h"
 
 namespace nephroid {
 namespace {
@@ -28,6 +28,17 @@ const MatchingCurves& matching_curves() {
     return MatchingCurves{table.column(0), table.column(1), table.column(2)};
   }();
   return curves;
+}
+
+/// A wavelength in [kLambdaMin, kLambdaMax] between two nodes of the matching curves.
+struct PlaceInCurves {
+  int node;  ///< of the shorter wavelength
+  float t;   ///< 0 there, 1 at the next node
+};
+PlaceInCurves place_in_curves(float lambda) {
+  const float position = lambda - kLambdaMin;
+  const int node = std::min(static_cast<int>(position), kTableNodes - 2);
+  return {node, position - static_cast<float>(node)};
 }
 
 }  // namespace
@@ -58,9 +69,7 @@ float SigmoidPolynomial::max_value() const {
 Xyz cie_xyz(float lambda) {
   if (!(lambda >= kLambdaMin && lambda <= kLambdaMax)) return {};
   const MatchingCurves& curves = matching_curves();
-  const float position = lambda - kLambdaMin;
-  const int i = std::min(static_cast<int>(position), kTableNodes - 2);
-  const float t = position - static_cast<float>(i);
+  const auto [i, t] = place_in_curves(lambda);
   return {lerp(t, curves.x[i], curves.x[i + 1]), lerp(t, curves.y[i], curves.y[i + 1]),
           lerp(t, curves.z[i], curves.z[i + 1])};
 }
@@ -74,9 +83,7 @@ SensorWeights sensor_weights(const SampledWavelengths& lambda, const RgbColorSpa
     const float pdf = lambda.pdf()[i];
     if (pdf == 0.0f) continue;
     // Values of the nearest nanometre would be right on average, but give white light a tint.
-    const float position = lambda.lambda(i) - kLambdaMin;
-    const int node = std::min(static_cast<int>(position), kTableNodes - 2);
-    const float t = position - static_cast<float>(node);
+    const auto [node, t] = place_in_curves(lambda.lambda(i));
     Rgb at = curves[node] * (1.0f - t) + curves[node + 1] * t;
     if (balance) at = *balance * at;
     const float s = scale / pdf;

@@ -119,8 +119,8 @@ inline constexpr int kAllWavelengths = -1;
 class SampledWavelengths {
  public:
   /// kSpectrumSamples wavelengths at equal steps of a cumulative distribution, rotated by u in
-  /// [0,1). Its density follows the film's curves, so that white light has nearly the same colour
-  /// for every u (docs/adr/0046-wavelengths-are-a-quadrature.md).
+  /// [0,1). Its density is such that white light has nearly the same colour for every u
+  /// (docs/adr/0046-wavelengths-are-a-quadrature.md).
   static SampledWavelengths sample_visible(float u);
   /// Density of sample_visible at `lambda`, in 1/nm; zero outside [360, 830] nm.
   static float visible_pdf(float lambda);

@@ -200,13 +200,13 @@ bool RenderSession::render_one_pass(SignalFlags& signals) {
   PassWatch watch(signals, clock_, [&] { look_in(signals, watch); });
   watch.wake_at(begin);
   open_pass_ = key.pass;
-  forecast_.begin(begin, progress_of_groups());
+  time_of_pass_.begin(begin, progress_of_groups());
   try {
     set_.render_pass(key, scene_, film_, watch);
   } catch (const PassStopped&) {
     return false;
   }
-  forecast_.end(clock_());
+  time_of_pass_.end(clock_());
   open_pass_.reset();
   film_.finish_pass();
   done_.add(key.pass);

@@ -14,7 +14,7 @@
 #include "film/image_io.h"
 #include "integrator/presets/estimator_set.h"
 #include "session/checkpoint/checkpoint.h"
-#include "session/pass_forecast.h"
+#include "session/pass_time_estimate.h"
 #include "session/pass_watch.h"
 #include "session/report/noise.h"
 #include "session/signals.h"
@@ -57,7 +57,7 @@ struct RenderProgress {
   double seconds = 0;
   std::optional<double> seconds_left;  ///< estimate, by the rule that will be met first
   std::optional<double> error;         ///< the last estimate, updated now and then
-  double fraction = 0;                 ///< fraction of the render that is done, 0..1
+  double fraction = 0;  ///< fraction of the render that is done, 0..1; the last one if unknown
   uint64_t rays = 0;
   uint64_t photons_stored = 0;
 };
@@ -187,7 +187,8 @@ class RenderSession {
   PassRanges done_;
   uint32_t passes_before_ = 0, passes_done_ = 0;  ///< passes before this run, and in all runs
   std::optional<uint32_t> open_pass_;             ///< unfinished pass
-  PassForecast forecast_;
+  PassTimeEstimate time_of_pass_;
+  double fraction_ = 0;  ///< the last RenderProgress::fraction
   std::optional<EstimatedError> error_;
   bool is_black_ = false;    ///< true: error_ is 0 and not reported
   uint32_t error_pass_ = 0;  ///< passes done when error_ was estimated

@@ -24,16 +24,14 @@ std::optional<double> RenderSession::seconds_left() const {
   const auto at_most = [&](double candidate) {
     left = std::max(0.0, left ? std::min(*left, candidate) : candidate);
   };
-  const std::optional<double> of_open = forecast_.seconds_left(clock_());
-  const std::optional<double> per_pass = forecast_.seconds_of_pass();
-  if (passes_wanted_ && per_pass && of_open) {
-    const double others = static_cast<double>(*passes_wanted_) - passes_done_of_wanted();
-    at_most(*of_open + *per_pass * (open_pass_ ? others - 1 : others));
-  }
-  if (is_past_time_limit()) {
-    if (of_open) at_most(*of_open);
-  } else if (options_.time_limit > 0) {
-    at_most(options_.time_limit - seconds_of_all_runs());
+  // Then the render waits for the first picture, nobody knows how long.
+  if (is_past_time_limit()) return std::nullopt;
+  if (options_.time_limit > 0) at_most(options_.time_limit - seconds_of_all_runs());
+  const std::optional<double> of_open = time_of_pass_.seconds_left(clock_());
+  const std::optional<double> per_pass = time_of_pass_.seconds_of_pass();
+  if (passes_wanted_ && of_open) {
+    const uint32_t later = *passes_wanted_ - passes_done_of_wanted() - (open_pass_ ? 1 : 0);
+    if (later == 0 || per_pass) at_most(*of_open + later * per_pass.value_or(0));
   }
   if (options_.noise_target > 0 && error_ && error_->total() > 0 && per_pass)
     at_most(*per_pass * (error_pass_ * passes_to(*error_, options_.noise_target) - passes_done_));
@@ -42,7 +40,7 @@ std::optional<double> RenderSession::seconds_left() const {
 
 void RenderSession::report_progress(bool within_pass) {
   if (!progress_) return;
-  if (within_pass) forecast_.look(clock_(), progress_of_groups());
+  if (within_pass) time_of_pass_.observe(clock_(), progress_of_groups());
   RenderProgress progress;
   progress.within_pass = within_pass;
   progress.passes_done = passes_done_of_wanted();
@@ -52,10 +50,11 @@ void RenderSession::report_progress(bool within_pass) {
   if (error_ && !is_black_) progress.error = error_->total();
   if (progress.seconds_left) {
     const double total = progress.seconds + *progress.seconds_left;
-    progress.fraction = total > 0 ? progress.seconds / total : 1;
+    fraction_ = total > 0 ? progress.seconds / total : 1;
   } else if (is_past_time_limit()) {
-    progress.fraction = 1;
+    fraction_ = 1;
   }
+  progress.fraction = fraction_;
   for (const EstimatorStatistics& s : statistics()) {
     progress.rays += s.rays;
     progress.photons_stored += s.photons_stored;

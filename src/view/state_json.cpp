@@ -61,12 +61,12 @@ Json progress_json(const RenderProgress& progress) {
             {"error", json_or_null(progress.error)},
             {"rays_per_second", seconds > 0 ? static_cast<double>(progress.rays) / seconds : 0.0},
             {"photons", progress.photons_stored}};
+  if (progress.fraction > 0) json["fraction"] = progress.fraction;
   // Endless renders have no end to wait for.
   constexpr double kLongestWait = 30.0 * 24 * 3600;
   if (progress.seconds_left && *progress.seconds_left < kLongestWait) {
     json["passes_wanted"] = json_or_null(progress.passes_wanted);
     json["seconds_left"] = *progress.seconds_left;
-    json["fraction"] = progress.fraction;
   }
   return json;
 }

@@ -63,7 +63,8 @@ TEST(Tint, OnePassOfGreyThingsIsGrey) {
     const double right = estimate_of(many[c]).mean;
     double squares = 0;
     for (const double value : one[c]) squares += (value / right - 1) * (value / right - 1);
-    EXPECT_LT(std::sqrt(squares / 16), 0.01) << (c < 3 ? "picture, " : "albedo, ") << "rgb"[c % 3];
+    EXPECT_LT(std::sqrt(squares / 16), max_error(0.01))
+        << (c < 3 ? "picture, " : "albedo, ") << "rgb"[c % 3];
   }
 }
 
@@ -81,7 +82,7 @@ TEST(Tint, SixteenPassesOfAPrismHaveAllColours) {
     return result;
   };
   const Channels mixed = spread("mixed"), path = spread("path");
-  for (size_t c = 0; c < 3; ++c) EXPECT_LE(mixed[c], 4 * path[c]) << "rgb"[c];
+  for (size_t c = 0; c < 3; ++c) EXPECT_LE(mixed[c], max_error(4 * path[c])) << "rgb"[c];
 }
 
 }  // namespace

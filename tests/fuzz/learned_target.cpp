@@ -1,15 +1,17 @@
 // Learned values of integrators; see targets.h.
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "core/errors.h"
 #include "film/film_settings.h"
+#include "film/render_state.h"
 #include "fuzz/targets.h"
 #include "input/pbrt_parser.h"
+#include "integrator/metropolis/metropolis_options.h"
 #include "integrator/presets/integrator_table.h"
 #include "scene/scene.h"
 
@@ -17,7 +19,7 @@ namespace nephroid::fuzz {
 namespace {
 
 constexpr size_t kBytesOfChange = 8;
-constexpr std::array kIntegrators = {"mixed", "forecast", "mlt"};
+constexpr std::array kIntegrators = {"mixed", "forecast", "mlt", "pssmlt", "pointlights"};
 
 /// A lamp over a floor and a ball of glass, on 30 pixels.
 constexpr char kSmallScene[] = R"(
@@ -34,60 +36,73 @@ constexpr char kSmallScene[] = R"(
   Material "dielectric" Translate 0.2 0.7 0 Shape "sphere" "float radius" 0.6
 )";
 
-/// A scene, an integrator, and what its estimators have learned: nothing, or their bytes.
-struct Sound {
-  std::unique_ptr<Scene> scene;
-  EstimatorSet set;
-  std::vector<std::vector<std::byte>> learned;
-};
-
-Film film_for(const Sound& of) {
-  return Film(film_settings(of.scene->film), of.set.layout);
+const Scene& small_scene() {
+  static const std::unique_ptr<Scene> scene = [] {
+    Diagnostics diagnostics;
+    return build_scene(parse_pbrt_string(kSmallScene, "fuzz.pbrt", ".", diagnostics), {},
+                       diagnostics);
+  }();
+  return *scene;
 }
 
-std::unique_ptr<Sound> sound(const std::string& integrator) {
-  Diagnostics diagnostics;
-  auto of = std::make_unique<Sound>();
-  of->scene =
-      build_scene(parse_pbrt_string(kSmallScene, "fuzz.pbrt", ".", diagnostics), {}, diagnostics);
-  of->set = make_estimators(plan_of_integrator(integrator), {}, *of->scene);
-  const Film film = film_for(*of);
-  for (const auto& estimator : of->set.estimators) {
-    ByteWriter bytes;
-    const auto value = estimator->learn(*of->scene, film.format(), 5, unwatched);
-    if (value) value->write(bytes);
-    of->learned.push_back(bytes.bytes());
+/// An integrator with a film, and the streams of a state that hold what its estimators learn.
+struct Render {
+  explicit Render(const std::string& integrator)
+      : set(make_estimators(plan_of_integrator(integrator), options(), small_scene())),
+        film(film_settings(small_scene().film), set.layout) {
+    set.learned.resize(set.estimators.size());
+    for (size_t i = 0; i < set.estimators.size(); ++i)
+      set.learned[i].add_state(*set.estimators[i], film.format(), "optional.learned", state);
   }
-  return of;
+  static IntegratorOptions options() {
+    IntegratorOptions options;
+    options.edit<MetropolisOptions>().mutations = 1;
+    return options;
+  }
+  void pass() { set.render_pass({5, 0}, small_scene(), film, unwatched); }
+
+  EstimatorSet set;
+  Film film;
+  RenderState state;
+};
+
+/// What the estimators save after a pass.
+const std::vector<std::vector<uint32_t>>& sound_words(size_t integrator) {
+  static std::array<std::vector<std::vector<uint32_t>>, kIntegrators.size()> all;
+  if (all[integrator].empty()) {
+    Render render(kIntegrators[integrator]);
+    render.pass();
+    for (const RenderState::Stream& stream : render.state.streams)
+      all[integrator].push_back(stream.save());
+  }
+  return all[integrator];
 }
 
 }  // namespace
 
-/// The first byte chooses the integrator; then come changes to what it has learned: four bytes of
-/// offset, four bytes of new data.
+/// The first byte chooses the integrator, the second says how many words are cut off at the end;
+/// then come changes to words that it has saved: four bytes of place, four bytes of value.
 void learned(const std::string& bytes) {
-  static std::array<std::unique_ptr<Sound>, kIntegrators.size()> sounds;
-  if (bytes.empty()) return;
+  if (bytes.size() < 2) return;
   const size_t number = static_cast<unsigned char>(bytes[0]) % kIntegrators.size();
-  std::unique_ptr<Sound>& of = sounds[number];
-  if (!of) of = sound(kIntegrators[number]);
-  for (size_t e = 0; e < of->learned.size(); ++e) {
-    std::vector<std::byte> changed = of->learned[e];
-    if (changed.size() < 4) continue;
-    for (size_t i = 1; i + kBytesOfChange <= bytes.size(); i += kBytesOfChange) {
-      uint32_t at;
-      std::memcpy(&at, bytes.data() + i, 4);
-      std::memcpy(changed.data() + at % (changed.size() - 3), bytes.data() + i + 4, 4);
+  const size_t cut = static_cast<unsigned char>(bytes[1]);
+  const std::vector<std::vector<uint32_t>>& sound = sound_words(number);
+  Render render(kIntegrators[number]);
+  for (size_t s = 0; s < sound.size(); ++s) {
+    std::vector<uint32_t> words = sound[s];
+    for (size_t i = 2; i + kBytesOfChange <= bytes.size() && !words.empty(); i += kBytesOfChange) {
+      uint32_t place, value;
+      std::memcpy(&place, bytes.data() + i, 4);
+      std::memcpy(&value, bytes.data() + i + 4, 4);
+      words[place % words.size()] = value;
     }
-    Estimator& estimator = *of->set.estimators[e];
-    Film film = film_for(*of);
+    words.resize(words.size() - std::min(cut, words.size()));
     try {
-      ByteReader reader(changed);
-      const auto value = estimator.read_learned(reader, film.format());
-      estimator.render_pass({5, 0}, value.get(), *of->scene, film, unwatched);
+      render.state.streams[s].load(words);
     } catch (const IoError&) {
     }
   }
+  render.pass();
 }
 
 }  // namespace nephroid::fuzz

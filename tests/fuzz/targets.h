@@ -35,7 +35,7 @@ void environment(const std::string& bytes);
 void nanovdb(const std::string& bytes);
 /// A picture with a render state, read without its scene; or words of held outliers.
 void checkpoint(const std::string& bytes);
-/// Changes to what integrators have learned for a small scene. What is accepted renders a pass.
+/// Changes to what integrators have learned for a small scene. Then they render a pass.
 void learned(const std::string& bytes);
 /// A command line, one argument per line.
 void command(const std::string& bytes);

@@ -26,11 +26,10 @@ constexpr FormatParameter kKeywords[] = {
     ignored("v with a weight", "x y z w", "weights are for free-form curves and surfaces"),
     row("vt", "u [v]", "a texture coordinate, (0, 0) at the lower left of the image"),
     row("vn", "x y z", "a normal; faces without normals are flat"),
-    ignored("vn not finite", "x y z", "faces have their own normal there"),
+    ignored("vn with nan or inf", "x y z", "faces have their own normal there"),
     row("f", "v/vt/vn ...",
-        "a face of up to 16384 corners; negative indices count back; faces of fewer than 3 are "
-        "left "
-        "out with a warning"),
+        "a face of at most 16384 corners, left out with a warning if it has one or two; negative "
+        "indices count back"),
     row("fo", "v/vt/vn ...", "an old name of f"),
     row("o", "name", "faces of each object are a shape"),
     row("g", "name ...", "faces of each group are a shape"),

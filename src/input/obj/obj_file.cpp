@@ -133,7 +133,7 @@ void ObjReader::read_normal(std::string_view text) {
   std::array<float, 3> n{};
   read_numbers(text, 3, &n);
   const Vec3f normal(n[0], n[1], n[2]);
-  if (!is_finite(normal)) ignored_.add("vn not finite", line_);
+  if (!is_finite(normal)) ignored_.add("vn with nan or inf", line_);
   normals_.push_back(is_finite(normal) ? normal : Vec3f(0, 0, 0));
 }
 

@@ -44,8 +44,8 @@ std::vector<std::string> notes_of_short_paths(const Scene& scene, const RenderSe
         first_material(scene, [](const Material& material) { return material.refracts(); });
     if (glass)
       notes.push_back(fmt::format(
-          "{} {} {}: no light goes through it and {}, expected at least {} scattering events", ends,
-          depth < kEventsThroughGlass ? "inside" : "behind", name_of_material(scene, *glass),
+          "{} {} {}: it lights nothing behind it and {}, expected at least {} scattering events",
+          ends, depth < kEventsThroughGlass ? "inside" : "behind", name_of_material(scene, *glass),
           depth < kEventsThroughGlass ? "only lights in it are seen"
                                       : "only lights are seen through it",
           kEventsThroughGlass + 1));

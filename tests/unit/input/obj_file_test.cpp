@@ -87,9 +87,10 @@ TEST_F(ObjFileTest, NormalsThatAreNotFiniteLeaveTheFacesTheirOwn) {
       std::string(kObjSquare) + "vn nan 0 1\nvn 0 0 1\nvn 0 inf 0\nf 1//1 2//2 3//3\n";
   EXPECT_EQ(read(text).parts.at(0).mesh.normals,
             (std::vector<Vec3f>{Vec3f(0, 0, 0), Vec3f(0, 0, 1), Vec3f(0, 0, 0)}));
-  EXPECT_EQ(warnings(),
-            "5: 2 lines \"vn not finite\" are ignored, this is the first: faces have their own "
-            "normal there\n");
+  EXPECT_EQ(
+      warnings(),
+      "5: 2 lines \"vn with nan or inf\" are ignored, this is the first: faces have their own "
+      "normal there\n");
 }
 
 TEST_F(ObjFileTest, APartIsAnObjectAGroupAndAMaterial) {

@@ -268,5 +268,40 @@ TEST_F(RenderSessionTest, ProgressCountsAndForetells) {
   EXPECT_TRUE(p.error.has_value());
 }
 
+TEST_F(RenderSessionTest, ProgressNeverFallsWithinPasses) {
+  script_.looks = 10;
+  script_.pass_seconds = 10;
+  // The third pass takes longer than those before it.
+  script_.during_pass = [&](const PassKey& key) { script_.now += key.pass == 2 ? 7 : 0; };
+  RenderOptions options;
+  options.last_pass = 3;
+  run(options);
+  ASSERT_EQ(progress_.size(), 4u);
+  ASSERT_EQ(progress_within_.size(), 40u);
+  // Nothing is known within the first pass: its pixels are done all at once.
+  EXPECT_FALSE(progress_within_[9].seconds_left);
+  EXPECT_EQ(progress_within_[9].fraction, 0);
+  EXPECT_NEAR(*progress_within_[14].seconds_left, 25, 1e-9);
+  EXPECT_NEAR(progress_within_[14].fraction, 15.0 / 40, 1e-9);
+  double before = 0;
+  for (const RenderProgress& p : progress_within_) {
+    EXPECT_GE(p.fraction, before);
+    before = p.fraction;
+  }
+}
+
+TEST_F(RenderSessionTest, BehindTheTimeLimitNobodyKnowsHowLongTheFirstPictureTakes) {
+  script_.looks = 10;
+  script_.pass_seconds = 10;
+  RenderOptions options;
+  options.time_limit = 5;
+  run(options);
+  ASSERT_EQ(progress_within_.size(), 10u);
+  EXPECT_NEAR(*progress_within_[1].seconds_left, 3, 1e-9);
+  EXPECT_NEAR(progress_within_[1].fraction, 0.4, 1e-9);
+  EXPECT_FALSE(progress_within_[8].seconds_left);
+  EXPECT_EQ(progress_within_[8].fraction, 1);
+}
+
 }  // namespace
 }  // namespace nephroid

@@ -77,7 +77,7 @@ class ScriptedSession : public ::testing::Test {
     RenderSession session(scene_, set_, *film_, options);
     session.use_clock([this] { return script_.now; });
     session.on_progress([this](const RenderProgress& progress) {
-      if (!progress.within_pass) progress_.push_back(progress);
+      (progress.within_pass ? progress_within_ : progress_).push_back(progress);
     });
     session.on_warning([this](const std::string& warning) { warnings_.push_back(warning); });
     return session.run(signals_);
@@ -88,7 +88,7 @@ class ScriptedSession : public ::testing::Test {
   Scene scene_;
   std::unique_ptr<Film> film_;
   SignalFlags signals_;
-  std::vector<RenderProgress> progress_;
+  std::vector<RenderProgress> progress_, progress_within_;  ///< after passes, and within them
   std::vector<std::string> warnings_;
 };
 

@@ -29,12 +29,13 @@ std::string notes_of(int depth, const std::string& material, bool on_command_lin
 TEST(ShortPaths, GlassNeedsThreeEvents) {
   EXPECT_EQ(notes_of(3, kGlass), "");
   EXPECT_EQ(notes_of(2, kGlass),
-            "the scene's maxdepth 2 ends paths behind dielectric1 (test.pbrt:2:1): no "
-            "light goes through it and only lights are seen through it, expected at least 3 "
+            "the scene's maxdepth 2 ends paths behind dielectric1 (test.pbrt:2:1): it "
+            "lights nothing behind it and only lights are seen through it, expected at least 3 "
             "scattering events");
   EXPECT_EQ(notes_of(1, kGlass, true),
-            "-D max-depth=1 ends paths inside dielectric1 (test.pbrt:2:1): no light goes "
-            "through it and only lights in it are seen, expected at least 3 scattering events");
+            "-D max-depth=1 ends paths inside dielectric1 (test.pbrt:2:1): it lights "
+            "nothing behind it and only lights in it are seen, expected at least 3 scattering "
+            "events");
   EXPECT_NE(notes_of(2,
                      "MakeNamedMaterial \"a\" \"string type\" \"dielectric\" MakeNamedMaterial "
                      "\"b\" \"string type\" \"diffuse\" Material \"mix\" \"string materials\" "
