@@ -24,7 +24,13 @@ constexpr const char* kDisk = R"(
   Shape "disk" "float radius" 0.3 AttributeEnd
   Material "conductor"
   Shape "bilinearmesh" "point3 P" [-1 0.2 0.9  0.5 0.2 0.9  -1 0.7 0.9  0.5 0.7 0.9])";
-const Casters kCasters[] = {{"frosted_glass_and_a_disk", "0.1", kDisk},
+constexpr const char* kWindow = R"(
+  AreaLightSource "diffuse" "rgb L" [3 2.8 2.6] "bool twosided" true
+  Shape "bilinearmesh" "point3 P" [-1.5 0.5 2  1.5 0.5 2  -1.5 2.5 2  1.5 2.5 2]
+  AreaLightSource "diffuse" "rgb L" [0 0 0])";
+const Casters kCasters[] = {{"smooth_glass_and_a_window", "0.02", kWindow},
+                            {"polished_glass_and_a_window", "0.05", kWindow},
+                            {"frosted_glass_and_a_disk", "0.1", kDisk},
                             {"rough_glass", "0.3", kPoint},
                             {"rough_glass_and_a_disk", "0.3", kDisk},
                             {"rougher_glass_and_a_disk", "0.5", kDisk}};
