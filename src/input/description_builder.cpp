@@ -44,12 +44,18 @@ void DescriptionBuilder::concat_transform(const Mat44d& m, const char* directive
   state_.ctm = {start, end};
 }
 
+void DescriptionBuilder::look_at(const Mat44d& m, const Vec3d& up, const SourceLocation& where) {
+  concat_transform(m, "LookAt", where);
+  state_.ctm.start.multDirMatrix(up, state_.up_in_camera.emplace());
+}
+
 void DescriptionBuilder::set_transform(const Mat44d& m, const SourceLocation& where) {
   if (is_singular(m) || !is_invertible(m))
     throw SceneError(where, "Transform is a singular matrix, expected one that can be inverted");
   expect_affine(m, "Transform", where);
   if (state_.start_active) state_.ctm.start = m;
   if (state_.end_active) state_.ctm.end = m;
+  state_.up_in_camera.reset();
 }
 
 void DescriptionBuilder::set_active_transforms(bool start, bool end) {
@@ -78,6 +84,7 @@ void DescriptionBuilder::use_coordinate_system(const std::string& name,
   const auto found = coordinate_systems_.find(name);
   if (found != coordinate_systems_.end()) {
     state_.ctm = found->second;
+    state_.up_in_camera.reset();
     return;
   }
   diagnostics_.warn(where, "coordinate system \"" + name +
@@ -258,6 +265,7 @@ void DescriptionBuilder::set_camera(DirectiveDescription directive) {
   CameraDescription& camera = scene_.camera.emplace();
   static_cast<DirectiveDescription&>(camera) = std::move(directive);
   camera.world_to_camera = state_.ctm;
+  camera.up = state_.up_in_camera.value_or(camera.up);
   camera.medium = state_.outside_medium;
 }
 

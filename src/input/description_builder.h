@@ -24,6 +24,8 @@ class DescriptionBuilder {
 
   // Transforms: `m` is applied first, then the current transform (m * ctm).
   void concat_transform(const Mat44d& m, const char* directive, const SourceLocation& where);
+  /// The same for the matrix of LookAt, whose up tells that of the world to a camera that follows.
+  void look_at(const Mat44d& m, const Vec3d& up, const SourceLocation& where);
   void set_transform(const Mat44d& m, const SourceLocation& where);
   void set_active_transforms(bool start, bool end);
   void set_transform_times(double start, double end, const SourceLocation& where);

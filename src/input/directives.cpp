@@ -85,7 +85,7 @@ void read_look_at(Reader& r, const SourceLocation& where) {
     throw SceneError(where,
                      "the up vector of LookAt is zero or parallel to the view direction, expected "
                      "another direction");
-  r.builder.concat_transform(*m, "LookAt", where);
+  r.builder.look_at(*m, up, where);
 }
 
 void read_active_transform(Reader& r, const SourceLocation&) {

@@ -21,6 +21,8 @@ inline constexpr std::array<std::string_view, 5> kAttributeTargets = {"shape", "
 struct GraphicsState {
   TransformDescription ctm;
   bool start_active = true, end_active = true;  ///< keyframes that transform directives change
+  /// Direction in camera space that the last LookAt calls up, if no Transform came after it.
+  std::optional<Vec3d> up_in_camera;
   bool reverse_orientation = false;
   std::string color_space = "srgb";
   MaterialReference material;  ///< neither index nor name: the default material

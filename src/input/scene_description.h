@@ -82,6 +82,8 @@ struct DirectiveDescription {
 
 struct CameraDescription : DirectiveDescription {
   TransformDescription world_to_camera;  ///< current transform at the Camera directive
+  /// The world's up in camera space: what the file says, as LookAt does; else the camera's own.
+  Vec3d up{0, 1, 0};
   std::string medium;
 };
 

@@ -137,6 +137,7 @@ void add_camera(Document& document, const NodeGraph& nodes, SceneDescription& sc
   static_cast<DirectiveDescription&>(camera) = std::move(list).directive(type);
   const TransformDescription& world = nodes.world(chosen.node);
   camera.world_to_camera = {world_to_camera(world.start, place), world_to_camera(world.end, place)};
+  camera.world_to_camera.start.multDirMatrix(Vec3d(0, 1, 0), camera.up);  // glTF's own up
   scene.camera = std::move(camera);
 }
 

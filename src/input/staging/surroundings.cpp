@@ -35,7 +35,7 @@ Surroundings surroundings_of(const SceneDescription& scene) {
   const Mat44d& to_camera = scene.camera->world_to_camera.start;
   if (is_singular(to_camera)) return s;
   Vec3d up;
-  to_camera.inverse().multDirMatrix(Vec3d(0, 1, 0), up);
+  to_camera.inverse().multDirMatrix(scene.camera->up, up);
   s.up = nearest_axis(up);
   s.east = s.up.x != 0 ? Vec3d(0, 1, 0) : Vec3d(1, 0, 0);
   s.north = s.up.cross(s.east);

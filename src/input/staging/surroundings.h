@@ -13,7 +13,7 @@ struct Surroundings {
   Mat44d to_world() const;
 };
 
-/// Up is the world axis nearest to the camera's; +y without a camera.
+/// Up is the world axis nearest to CameraDescription::up; +y without a camera.
 Surroundings surroundings_of(const SceneDescription& scene);
 
 }  // namespace nephroid

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "input/staging/surroundings.h"
 #include "unit/input/gltf_text.h"
 
 namespace nephroid::testing {
@@ -209,6 +210,14 @@ TEST(GltfCameras, PerspectiveLooksAlongMinusZ) {
   ASSERT_TRUE(scene.film);
   EXPECT_EQ(number_of(scene.film->parameters, "xresolution"), 1280);
   EXPECT_EQ(number_of(scene.film->parameters, "yresolution"), 640);
+}
+
+TEST(GltfCameras, SteepOnesLeaveTheWorldsUpWhereItIs) {
+  const std::string file =
+      R"({"asset":{"version":"2.0"},"cameras":[{"type":"perspective","perspective":)"
+      R"({"yfov":1,"aspectRatio":2,"znear":0.1}}],"nodes":[{"camera":0,"translation":[0,9,3],)"
+      R"("rotation":[-0.6,0,0,0.8]}]})";
+  EXPECT_EQ(surroundings_of(read_gltf_text(file).scene).up, Vec3d(0, 1, 0));
 }
 
 TEST(GltfCameras, FovIsThatOfTheShorterSide) {
