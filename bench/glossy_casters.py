@@ -49,7 +49,7 @@ def render(scene, folder, options):
     picture = oiio.ImageBuf(str(out))
     names = list(picture.spec().channelnames)
     pixels = numpy.asarray(picture.get_pixels(oiio.FLOAT), dtype=numpy.float64)
-    floor = pixels[..., names.index("N.Y")] > 0.9999
+    floor = numpy.abs(pixels[..., names.index("N.Y")]) > 0.999
     out.unlink()
     cpu = after.children_user - before.children_user + after.children_system - before.children_system
     return pixels[..., [names.index(c) for c in "RGB"]], floor, cpu
