@@ -8,14 +8,13 @@ that of two seeds: half their squared difference over the squared mean + 0.01, a
 worst 0.1 % of pixels. Needs the Python modules of OpenImageIO and NumPy (python3-openimageio, python3-numpy).
 """
 import argparse
-import os
 import pathlib
 import tempfile
 
 import numpy
-import OpenImageIO as oiio
 
-from validate import PROGRAM, run
+from picture_file import read_channels
+from real_sizes import render
 
 LAMPS = {
     "point": 'LightSource "point" "rgb I" [18 17 16] "point3 from" [1 3 0.5]',
@@ -26,7 +25,6 @@ LAMPS = {
 }
 SCENE = """LookAt 0 2.2 -3.4  0 0.3 0  0 1 0
 Camera "perspective" "float fov" 40
-Film "rgb" "integer xresolution" 480 "integer yresolution" 360
 WorldBegin
 {lamp}
 Material "diffuse" "rgb reflectance" [0.5 0.5 0.5]
@@ -40,19 +38,13 @@ Shape "cylinder" "float radius" 0.5 "float zmin" 0 "float zmax" 0.3
 """
 
 
-def render(scene, folder, options):
-    """Pixels of R, G and B, the mask of the floor, and CPU seconds."""
+def measured(scene, folder, options):
+    """Pixels of R, G and B, the mask of the floor, and CPU seconds of a render."""
     out = folder / "picture.exr"
-    before = os.times()
-    run([PROGRAM, "render", scene, "-o", out, "--quiet", "--no-state", *options])
-    after = os.times()
-    picture = oiio.ImageBuf(str(out))
-    names = list(picture.spec().channelnames)
-    pixels = numpy.asarray(picture.get_pixels(oiio.FLOAT), dtype=numpy.float64)
-    floor = numpy.abs(pixels[..., names.index("N.Y")]) > 0.999
+    cpu = render(scene, out, "480x360", options)
+    pixels = read_channels(out, ["R", "G", "B", "N.Y"])
     out.unlink()
-    cpu = after.children_user - before.children_user + after.children_system - before.children_system
-    return pixels[..., [names.index(c) for c in "RGB"]], floor, cpu
+    return pixels[..., :3], numpy.abs(pixels[..., 3]) > 0.999, cpu
 
 
 def main():
@@ -70,7 +62,8 @@ def main():
                 scene = folder / "scene.pbrt"
                 scene.write_text(SCENE.format(lamp=LAMPS[lamp], alpha=alpha))
                 options = ["--integrator", args.integrator, "--time", f"{args.seconds}s"]
-                (a, floor, cpu_a), (b, _, cpu_b) = [render(scene, folder, [*options, "--seed", str(seed)]) for seed in (1, 2)]
+                (a, floor, cpu_a), (b, _, cpu_b) = [measured(scene, folder, [*options, "--seed", str(seed)])
+                                                   for seed in (1, 2)]
             error = ((a - b) ** 2 / 2 / (((a + b) / 2) ** 2 + 0.01)).mean(axis=2)
             figures = []
             for part in (floor, ~floor):

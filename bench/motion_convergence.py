@@ -13,7 +13,8 @@ import pathlib
 import subprocess
 
 import numpy
-import OpenImageIO as oiio
+
+from picture_file import read_channels
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/bin/nephroid"
@@ -23,10 +24,7 @@ SCENE = ROOT / "scenes/moving-glass/scene.pbrt"
 def caustic(out, passes, seed):
     subprocess.run([PROGRAM, "render", SCENE, "-o", out, "--integrator", "mixed", "--quiet",
                     "-D", "photons=16384", "--passes", str(passes), "--seed", str(seed)], check=True, capture_output=True)
-    picture = oiio.ImageBuf(str(out))
-    names = list(picture.spec().channelnames)
-    pixels = numpy.asarray(picture.get_pixels(oiio.FLOAT))
-    return pixels[..., [names.index(f"caustic.{c}") for c in "RGB"]].astype(float)
+    return read_channels(out, [f"caustic.{c}" for c in "RGB"])
 
 
 def svg(points, slope):

@@ -73,11 +73,7 @@ def make_references(args):
     import numpy
     import OpenImageIO as oiio
 
-    def colors(path):
-        picture = oiio.ImageBuf(str(path))
-        names = list(picture.spec().channelnames)
-        pixels = numpy.asarray(picture.get_pixels(oiio.FLOAT))
-        return pixels[..., [names.index(c) for c in "RGB"]]
+    from picture_file import read_channels
 
     args.references.mkdir(parents=True, exist_ok=True)
     for name, scene, size, recipe in chosen(args):
@@ -89,7 +85,7 @@ def make_references(args):
             out = args.references / f"{name}-half{half}.exr"
             if not out.exists():
                 render(scene, out, size, [*recipe, "--seed", str(1000 + half), "--time", f"{args.seconds}s"])
-            halves.append(colors(out))
+            halves.append(read_channels(out, "RGB"))
         mean = (halves[0] + halves[1]) / 2
         error = abs(halves[0] - halves[1]) / 2
         height, width = mean.shape[:2]

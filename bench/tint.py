@@ -12,8 +12,8 @@ import pathlib
 import tempfile
 
 import numpy
-import OpenImageIO as oiio
 
+from picture_file import read_channels
 from validate import PROGRAM, run
 
 CHANNELS = ["R", "G", "B", "albedo.R", "albedo.G", "albedo.B"]
@@ -23,10 +23,7 @@ def mean_colors(scene, folder, options):
     """Means of a render's CHANNELS."""
     out = folder / "picture.exr"
     run([PROGRAM, "render", scene, "-o", out, "--quiet", "--no-state", "--float", *options])
-    picture = oiio.ImageBuf(str(out))
-    names = list(picture.spec().channelnames)
-    pixels = numpy.asarray(picture.get_pixels(oiio.FLOAT), dtype=numpy.float64)
-    means = numpy.array([pixels[..., names.index(c)].mean() for c in CHANNELS])
+    means = read_channels(out, CHANNELS).mean(axis=(0, 1))
     for file in folder.iterdir():
         file.unlink()
     return means

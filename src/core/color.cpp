@@ -32,7 +32,7 @@ const MatchingCurves& matching_curves() {
 
 /// A wavelength in [kLambdaMin, kLambdaMax] between two nodes of the matching curves.
 struct PlaceInCurves {
-  int node;  ///< of the shorter wavelength
+  int node;  ///< the one below the wavelength
   float t;   ///< 0 there, 1 at the next node
 };
 PlaceInCurves place_in_curves(float lambda) {

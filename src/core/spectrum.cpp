@@ -20,7 +20,7 @@ struct Normal {
 /// varies by less than 0.9 % rms, that of density 1/cosh^2 (pbrt-v4 section 4.5.4) by up to 12 %
 /// (ADR 46).
 constexpr Normal kNormals[] = {{442, 24.7, 0.38}, {510, 24.5, 0.07}, {587, 64, 0.41}};
-constexpr int kSteps = 1024;  ///< of the table of the cumulative distribution
+constexpr int kSteps = 1024;  ///< the distribution is tabulated in so many steps
 
 /// Integral of exp(-((x - peak) / width)^2 / 2) over [a, b], up to a constant factor.
 double integral(const Normal& normal, double a, double b) {

@@ -59,7 +59,7 @@ std::optional<double> PassTimeEstimate::seconds_of_pass() const {
 std::optional<double> PassTimeEstimate::seconds_left(double now) const {
   if (!is_open_) return 0;
   std::optional<double> end = pass_end_;
-  // What comes before the pixels takes its time in each pass, and only earlier passes tell it.
+  // Each pass traces photons before its first pixel. Only earlier passes show how long that takes.
   if (passes_ > 0 && !was_begun_before_) {
     const double expected = pass_start_ + *seconds_of_pass();
     if (!end || now < expected) end = expected;

@@ -30,15 +30,16 @@ class PassTimeEstimate {
 
   bool is_open_ = false;
   bool was_begun_before_ = false;  ///< parts of the open pass were done when it began
-  std::vector<double> fractions_;  ///< of the open pass when it began
+  std::vector<double> fractions_;  ///< progress of each group when the open pass began
   double pass_start_ = 0;
   double last_observed_ = 0;
   size_t group_ = 0;  ///< the group that is being rendered
   double group_start_ = 0;
-  double pixels_start_ = 0;         ///< last time when none of its pixels were done
-  std::optional<double> pass_end_;  ///< of the open pass, by the speed of its pixels
-  int passes_ = 0;                  ///< passes that this object saw from begin to end
-  double seconds_of_first_ = 0;     ///< with all that is learned before it
+  double pixels_start_ = 0;  ///< last time when none of its pixels were done
+  std::optional<double>
+      pass_end_;                 ///< when the open pass will end if its pixels go on at this speed
+  int passes_ = 0;               ///< passes that this object saw from begin to end
+  double seconds_of_first_ = 0;  ///< with all that is learned before it
   double seconds_of_others_ = 0;
 };
 

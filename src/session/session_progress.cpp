@@ -1,4 +1,4 @@
-// What a session tells of its progress: passes, time left, error, counts.
+// Reports the progress of a session: passes, time left, error, counts.
 #include <algorithm>
 
 #include "session/render_session.h"

@@ -196,38 +196,6 @@ TEST(Integrators, ALimitBoundsEveryPixel) {
   }
 }
 
-TEST(Integrators, AFewPassesHaveAllColoursOfAPrism) {
-  // A flint glass ball leaves grey light grey for any wavelengths of the pass, although each
-  // refracted path keeps a single wavelength.
-  const auto scene = scene_from_text(R"(
-    LookAt 0 2 -4  0 0.3 0  0 1 0
-    Camera "perspective" "float fov" 40
-    Film "rgb" "integer xresolution" 32 "integer yresolution" 24
-    PixelFilter "box"
-    WorldBegin
-    LightSource "spot" "point3 from" [0 5 0] "point3 to" [0 0 0] "rgb I" [60 60 60]
-    Material "diffuse" "rgb reflectance" [0.5 0.5 0.5]
-    Shape "bilinearmesh" "point3 P" [-3 -0.5 -3  3 -0.5 -3  -3 -0.5 3  3 -0.5 3]
-    Material "dielectric" "spectrum eta" "glass-F11"
-    Translate 0 0.4 0 Shape "sphere" "float radius" 0.8
-  )");
-  IntegratorOptions options;
-  options.photons_per_pass = 20000;
-  constexpr int kSeeds = 8;
-  for (const char* integrator : {"mixed", "sppm", "vcm", "bpm"}) {
-    double squares = 0;
-    for (uint64_t seed = 0; seed < kSeeds; ++seed) {
-      const Film film = render(*scene, integrator, options, seed, 4);
-      Rgb sum;
-      for (int y = 0; y < 24; ++y)
-        for (int x = 0; x < 32; ++x) sum = sum + film.value(x, y);
-      squares += std::pow(sum.g / sum.r - 1, 2) + std::pow(sum.b / sum.g - 1, 2);
-    }
-    // If all paths of a pass kept the same wavelength, this would be 10 to 30 %.
-    EXPECT_LT(std::sqrt(squares / (2 * kSeeds)), 0.03) << integrator;
-  }
-}
-
 TEST(Integrators, WhatWasDroppedDoesNotHideTheHero) {
   // Blue fog behind flint glass: a path whose hero wavelength is red crosses the fog as red light
   // does. If the blue wavelengths that the glass dropped still counted, they would grow with every

@@ -66,7 +66,7 @@ struct Render {
   RenderState state;
 };
 
-/// What the estimators save after a pass.
+/// The words that the estimators save in a state after a pass.
 const std::vector<std::vector<uint32_t>>& sound_words(size_t integrator) {
   static std::array<std::vector<std::vector<uint32_t>>, kIntegrators.size()> all;
   if (all[integrator].empty()) {

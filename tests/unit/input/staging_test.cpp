@@ -176,7 +176,7 @@ TEST(Surroundings, AreThoseOfLookAtHoweverSteepTheCamera) {
   EXPECT_EQ(up_of("LookAt 0 12 1 0 0 0 0 1 0"), Vec3d(0, 1, 0));
   EXPECT_EQ(up_of("LookAt 3 1 -12 0 0 0 0 0 -1"), Vec3d(0, 0, -1));
   EXPECT_EQ(up_of("Rotate 20 0 0 1 Scale -1 1 1 LookAt 0 12 10 0 0 0 0 1 0"), Vec3d(0, 1, 0));
-  // What comes after it turns the world.
+  // A Rotate after LookAt turns the world.
   EXPECT_EQ(up_of("LookAt 0 12 10 0 0 0 0 1 0 Rotate 90 1 0 0"), Vec3d(0, 0, -1));
   // A matrix has no up but the camera's own.
   EXPECT_EQ(up_of("LookAt 0 12 10 0 0 0 0 1 0 Identity"), Vec3d(0, 1, 0));
