@@ -59,9 +59,14 @@ void open_browser(const std::string& url) {
 }
 
 void add_comparisons(const std::vector<std::string>& paths, Comparisons& comparisons) {
-  for (const std::string& path : paths)
-    comparisons.add_file(color_picture(read_picture(path)),
-                         std::filesystem::path(path).filename().string());
+  for (const std::string& path : paths) {
+    try {
+      comparisons.add_file(color_picture(read_picture(path)),
+                           std::filesystem::path(path).filename().string());
+    } catch (const UsageError& error) {
+      throw UsageError(path + ": " + error.what());
+    }
+  }
 }
 
 /// Throws IoError unless it is a directory.

@@ -20,8 +20,8 @@ Rgb to_rgb(const double (&v)[3]) {
 double variance_of_mean(const FixedSum& sum, const FixedSum& square, uint64_t n) {
   const double count = static_cast<double>(n);
   const double mean = sum.value() / count;
-  const double spread = square.value() / count - mean * mean;
-  return std::max(0.0, spread) / (count - 1.0);
+  const double variance = square.value() / count - mean * mean;
+  return std::max(0.0, variance) / (count - 1.0);
 }
 
 }  // namespace

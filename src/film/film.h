@@ -65,6 +65,7 @@ class Film {
   void add_bias(int group, int x, int y, float bias);
   /// Counts `count` more estimates per pixel of a group, those of slices included.
   void add_estimates(int group, uint64_t count);
+  /// Sets the number of estimates of each pixel of a group.
   void set_estimates(int group, uint64_t count);
   uint64_t estimates(int group) const;
 

@@ -61,7 +61,9 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
   if (const std::string fault = fault_of_exr_header(path); !fault.empty())
     throw IoError(path + ": cannot read: " + fault);
   if (!std::filesystem::exists(path)) throw IoError(path + ": cannot read: there is no such file");
-  auto in = OIIO::ImageInput::open(path);
+  OIIO::ImageSpec wish;
+  wish.attribute("oiio:UnassociatedAlpha", 1);  // sRGB code values must not be multiplied
+  auto in = OIIO::ImageInput::open(path, &wish);
   if (!in) {
     const std::string reason = OIIO::geterror();
     throw IoError(path + ": cannot read: " + (reason.empty() ? "unknown format" : reason));

@@ -23,6 +23,11 @@ namespace {
 
 constexpr std::array<char, 8> kBegin = {'N', 'E', 'P', 'H', 'S', 'T', 'A', 4};
 
+/// True if these are the first bytes of a state of any version.
+bool begins_a_state(const std::array<char, 8>& begin) {
+  return std::equal(begin.begin(), begin.end() - 1, kBegin.begin());
+}
+
 /// The last bytes of a file.
 struct Footer {
   uint64_t index_offset = 0, index_bytes = 0, index_hash = 0;
@@ -135,7 +140,7 @@ struct StateFile::Input {
     if (bytes < sizeof(begin) + sizeof(Footer))
       fail("it is damaged, expected the state of a render");
     read(0, std::as_writable_bytes(std::span(begin)));
-    if (!std::equal(begin.begin(), begin.end() - 1, kBegin.begin()))
+    if (!begins_a_state(begin))
       fail("it is not the state of a render, or damaged, expected such a state");
     if (begin.back() != kBegin.back())
       fail("another version of this program wrote it, expected a state of this version");
@@ -246,8 +251,15 @@ std::vector<std::string> StateFile::load(const RenderState& state) {
   return load_streams(state);
 }
 
-bool StateFile::has(const std::string& section) const {
-  return input_->find(section) != nullptr;
+bool StateFile::is_state(const std::string& path) {
+  std::array<char, 8> begin{};
+  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
+  return begins_a_state(begin);
+}
+
+bool StateFile::has_words(const std::string& section) const {
+  const StateIndex::Section* found = input_->find(section);
+  return found != nullptr && found->bytes > 0;
 }
 
 std::vector<std::string> StateFile::load_streams(const RenderState& state) {

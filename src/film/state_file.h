@@ -29,6 +29,8 @@ void write_state(const std::string& path, const StateHead& head, const RenderSta
 /// Reads a file of write_state. All functions throw IoError with the file's name.
 class StateFile {
  public:
+  /// True if the file begins like a state, of any version.
+  static bool is_state(const std::string& path);
   /// Reads the index.
   explicit StateFile(const std::string& path);
   ~StateFile();
@@ -47,8 +49,8 @@ class StateFile {
   std::vector<std::string> load(const RenderState& state);
   /// The same for the streams of `state` alone. The file's arrays are not read.
   std::vector<std::string> load_streams(const RenderState& state);
-  /// True if the file has a section of that name, even one without words.
-  bool has(const std::string& section) const;
+  /// True if the file has a section of that name that is not empty.
+  bool has_words(const std::string& section) const;
 
  private:
   struct Input;

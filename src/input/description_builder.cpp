@@ -46,16 +46,18 @@ void DescriptionBuilder::concat_transform(const Mat44d& m, const char* directive
 
 void DescriptionBuilder::look_at(const Mat44d& m, const Vec3d& up, const SourceLocation& where) {
   concat_transform(m, "LookAt", where);
-  state_.ctm.start.multDirMatrix(up, state_.up_in_camera.emplace());
+  if (state_.start_active) state_.ctm.start.multDirMatrix(up, state_.up_in_camera.emplace());
 }
 
 void DescriptionBuilder::set_transform(const Mat44d& m, const SourceLocation& where) {
   if (is_singular(m) || !is_invertible(m))
     throw SceneError(where, "Transform is a singular matrix, expected one that can be inverted");
   expect_affine(m, "Transform", where);
-  if (state_.start_active) state_.ctm.start = m;
+  if (state_.start_active) {
+    state_.ctm.start = m;
+    state_.up_in_camera.reset();
+  }
   if (state_.end_active) state_.ctm.end = m;
-  state_.up_in_camera.reset();
 }
 
 void DescriptionBuilder::set_active_transforms(bool start, bool end) {

@@ -10,7 +10,7 @@
 
 namespace nephroid {
 
-/// The outlier settings of a film with these routes.
+/// The outlier settings of a film with these routes; `pixels` are those of the uncropped picture.
 OutlierSettings outlier_settings(const Routes& routes, const IntegratorOptions& options,
                                  const PixelFilter& filter, int64_t pixels,
                                  const SceneSettings& settings = {});

@@ -32,7 +32,6 @@ struct Recorded {
   const Estimator* estimator = nullptr;
   const Learned* learned = nullptr;
   const Routes* routes = nullptr;
-  uint32_t radius_pass = 0;
 };
 
 class Inspector {
@@ -45,6 +44,7 @@ class Inspector {
 
   PixelInspection run(EstimatorSet& set) {
     read_film();
+    radius_pass_ = last_pass(set);
     std::optional<StandIn> stand_in = stand_in_for(set, scene_, settings_.options);
     std::vector<Recorded> recorded = estimators_of(set, [&](const Estimator& estimator) {
       return !stand_in || !stand_in->replaces(estimator);
@@ -75,21 +75,27 @@ class Inspector {
     found_.samples = film_.samples(x, y);
   }
 
+  /// The last of the passes that all groups have of this pixel, whose radius paths merge with. A
+  /// group with a state of its own per pixel does not count its passes there.
+  uint32_t last_pass(const EstimatorSet& set) const {
+    uint64_t passes = std::numeric_limits<uint64_t>::max();
+    for (size_t g = 0; g < set.routes->groups().size(); ++g)
+      if (!set.estimators[g]->descriptor().capabilities.per_pixel_state)
+        passes = std::min(passes, film_.estimates(static_cast<int>(g), found_.x, found_.y));
+    if (passes == std::numeric_limits<uint64_t>::max()) return 0;
+    return static_cast<uint32_t>(std::max<uint64_t>(passes, 1) - 1);
+  }
+
   /// The estimators of the set that are wanted and can be recorded; they learn if needed.
   template <class Wanted>
   std::vector<Recorded> estimators_of(EstimatorSet& set, const Wanted& wanted) {
     set.learned.resize(set.estimators.size());
     std::vector<Recorded> all;
-    // The passes that all groups have of this pixel, whose last one has the radius to merge with.
-    uint64_t passes = std::numeric_limits<uint64_t>::max();
-    for (size_t g = 0; g < set.routes->groups().size(); ++g)
-      passes = std::min(passes, film_.estimates(static_cast<int>(g), found_.x, found_.y));
     for (size_t g = 0; g < set.routes->groups().size(); ++g) {
       const Estimator& estimator = *set.estimators[g];
       if (!estimator.records_pixels() || !wanted(estimator)) continue;
       const auto& learned = set.learned[g].learn(estimator, settings_.seed, scene_, film_.format());
-      all.push_back({&estimator, learned.get(), set.routes.get(),
-                     static_cast<uint32_t>(std::max<uint64_t>(passes, 1) - 1)});
+      all.push_back({&estimator, learned.get(), set.routes.get()});
     }
     return all;
   }
@@ -111,7 +117,7 @@ class Inspector {
            .y = found_.y,
            .camera_paths = std::max(1, settings_.camera_paths / kPasses),
            .light_paths = std::max<int64_t>(1, settings_.light_paths / kPasses),
-           .radius_pass = r.radius_pass},
+           .radius_pass = radius_pass_},
           r.learned, *tallies[task]);
     });
     for (int s = 0; s < kSeries; ++s)
@@ -239,6 +245,7 @@ class Inspector {
   const InspectionSettings& settings_;
   const PathLetters letters_;
   PixelInspection found_;
+  uint32_t radius_pass_ = 0;
   std::vector<std::unique_ptr<PathTally>> series_;
   std::unique_ptr<PathTally> all_;
   SeriesMeans total_;

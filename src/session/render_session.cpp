@@ -114,12 +114,8 @@ void RenderSession::use_clock(std::function<double()> seconds) {
 
 RenderResult RenderSession::run(SignalFlags& signals) {
   start_ = clock_();
-  error_text_pass_ = error_pass_ = 0;
-  error_.reset();
-  next_error_seconds_ = 0;
   next_preview_seconds_ = std::min(options_.first_preview, options_.preview_interval);
   next_checkpoint_seconds_ = options_.checkpoint_interval;
-  next_picture_seconds_ = 0;
   RenderResult result;
   // The first preview must not depend on earlier renders of the scene.
   scene_.light_sampler->learn({});
@@ -131,8 +127,9 @@ RenderResult RenderSession::run(SignalFlags& signals) {
     // Earlier runs may already have met a stop rule.
     if (options_.noise_target > 0 && error_check_is_due()) renew_error();
     reason = reason_to_stop(signals);
-    if (reason) first_pass_statistics_ = statistics();
   }
+  // Time may have ended the unfinished pass of an earlier run.
+  if (!reason) reason = reason_to_end_pass(signals);
   while (!reason) {
     if (!render_one_pass(signals)) {
       reason = *reason_to_end_pass(signals);
@@ -165,8 +162,6 @@ RenderResult RenderSession::run(SignalFlags& signals) {
   result.has_state = result.has_picture && (options_.keeps_state || *reason == StopReason::kSignal);
   if (!options_.output.empty() && result.has_picture) {
     write_last_picture(result.has_state);
-    // The state is left out, with a warning, if memory is short.
-    result.has_state &= std::filesystem::exists(state_path_beside(options_.output));
   }
   if (picture_ && result.has_picture && !is_dropped)
     picture_({film_, elapsed(), passes_done_, true});
@@ -200,6 +195,7 @@ bool RenderSession::render_one_pass(SignalFlags& signals) {
   PassWatch watch(signals, clock_, [&] { look_in(signals, watch); });
   watch.wake_at(begin);
   open_pass_ = key.pass;
+  has_begun_pass_ = true;
   time_of_pass_.begin(begin, progress_of_groups());
   try {
     set_.render_pass(key, scene_, film_, watch);

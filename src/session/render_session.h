@@ -107,8 +107,9 @@ class RenderSession {
   /// Seconds from any origin; the machine's steady clock unless set. Called by any thread.
   void use_clock(std::function<double()> seconds);
 
-  /// Renders until a rule or a signal stops it, and writes the picture. Throws IoError if the last
-  /// picture cannot be written; the message has the place of the rescued picture, if there is one.
+  /// Renders until a rule or a signal stops it, and writes the picture. Called once. Throws IoError
+  /// if the last picture cannot be written; the message has the place of the rescued picture, if
+  /// there is one.
   RenderResult run(SignalFlags& signals);
 
   /// Writes what is rendered so far, with its PNG. Called after run() or from a callback. Throws
@@ -199,6 +200,7 @@ class RenderSession {
   double next_preview_seconds_ = 0, next_checkpoint_seconds_ = 0;
   double next_picture_seconds_ = 0;   ///< next call of picture_
   double next_progress_seconds_ = 0;  ///< next progress report within a pass
+  bool has_begun_pass_ = false;       ///< true after the first sample of this run
   bool has_written_ = false;          ///< true after the first picture or PNG
 };
 

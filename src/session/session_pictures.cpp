@@ -128,12 +128,11 @@ std::string RenderSession::choices_text() const {
 
 Metadata RenderSession::state_metadata() const {
   // Without new passes the earlier metadata stay as they are.
-  const bool rendered = passes_of_run() > 0 || open_pass_;
   const Checkpoint& before = options_.begin_with;
   RenderIdentity identity = options_.identity;
   identity.set_film(film_, options_.seed);
   identity.instruction_sets = joined_instruction_sets(
-      before.instruction_sets, rendered ? identity.instruction_sets : std::string());
+      before.instruction_sets, has_begun_pass_ ? identity.instruction_sets : std::string());
   Metadata metadata = identity.to_metadata();
   add_film_metadata(film_, passes_add_up(set_, film_), &metadata);
   Checkpoint progress;
@@ -141,12 +140,12 @@ Metadata RenderSession::state_metadata() const {
   if (film_.has_open_pass()) progress.open_pass = open_pass_;
   progress.seconds = seconds_of_all_runs();
   progress.history = before.history;
-  if (rendered)
+  if (has_begun_pass_)
     progress.history +=
         fmt::format("{}{} in {:.3f} s\n", counted(passes_of_run(), "pass", "passes"),
                     film_.has_open_pass() ? " and a part of one" : "", elapsed());
   add_progress(progress, &metadata);
-  metadata.emplace_back(kChoicesKey, rendered ? choices_text() : before.choices);
+  metadata.emplace_back(kChoicesKey, has_begun_pass_ ? choices_text() : before.choices);
   add_estimates(film_, &metadata);
   return metadata;
 }

@@ -24,8 +24,10 @@ std::optional<double> RenderSession::seconds_left() const {
   const auto at_most = [&](double candidate) {
     left = std::max(0.0, left ? std::min(*left, candidate) : candidate);
   };
-  // Then the render waits for the first picture, nobody knows how long.
-  if (is_past_time_limit()) return std::nullopt;
+  if (is_past_time_limit()) {
+    // A pass goes on only until there is a picture, and nobody knows how long that takes.
+    return open_pass_ ? std::nullopt : std::optional(0.0);
+  }
   if (options_.time_limit > 0) at_most(options_.time_limit - seconds_of_all_runs());
   const std::optional<double> of_open = time_of_pass_.seconds_left(clock_());
   const std::optional<double> per_pass = time_of_pass_.seconds_of_pass();

@@ -55,7 +55,8 @@ Picture color_picture(const Picture& picture) {
   int channels[3];
   for (int c = 0; c < 3; ++c) {
     channels[c] = picture.find_channel(std::string(1, "RGB"[c]));
-    if (channels[c] < 0) throw UsageError("the picture has no channels R, G and B");
+    if (channels[c] < 0)
+      throw UsageError("the picture has no channels R, G and B, expected a picture in colour");
   }
   Picture colors;
   static_cast<PictureHead&>(colors) = picture;

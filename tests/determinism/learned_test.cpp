@@ -126,7 +126,8 @@ TEST_P(LearnedBits, AStateHoldsWhatIsLearnedAndNothingIsLearnedAgain) {
     const std::vector<uint32_t> words = state.streams[i].save();
     to.streams[i].load(words);
     EXPECT_EQ(to.streams[i].save(), words);
-    if (words.empty()) continue;
+    ASSERT_FALSE(words.empty());
+    if (words.size() == 1) continue;  // there is nothing to learn
     for (const size_t kept : {size_t{1}, words.size() / 2, words.size() - 1})
       EXPECT_THROW(to.streams[i].load(std::span(words).first(kept)), IoError) << kept;
     to.streams[i].load(words);

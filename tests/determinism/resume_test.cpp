@@ -268,6 +268,8 @@ TEST(LearnFrom, WhatCannotBeTakenIsLearnedAgain) {
   second.render(1, 1);
   second.write(directory.file("other.exr"));
   merge_pictures({path, directory.file("other.exr")}, sum);
+  const std::string unlearned = directory.file("unlearned.exr");
+  OneRun(*scene, "mixed", false).write(unlearned);
   const auto said = [&](const std::string& from, const std::string& instruction_sets = "") {
     OneRun task(*scene, "mixed", false);
     task.identity.instruction_sets = instruction_sets;
@@ -282,6 +284,7 @@ TEST(LearnFrom, WhatCannotBeTakenIsLearnedAgain) {
   };
   EXPECT_EQ(said(path), "");
   for (const auto& [text, part] : {std::pair(said(sum), "what was learned is not kept there"),
+                                   std::pair(said(unlearned), "what was learned is not kept there"),
                                    std::pair(said(path, "avx9"), "nothing, here avx9"),
                                    std::pair(said(directory.file("none.exr")), "there is no")}) {
     EXPECT_NE(text.find(part), std::string::npos) << text;

@@ -87,7 +87,7 @@ class PairRendering {
     s_.lamps.add_to(statistics);
     statistics.photon_paths += s_.techniques.light_paths;
     statistics.radius_min_pixels = s_.merging.radius_pixels;
-    if (statistics.radius_max_pixels == 0) statistics.radius_max_pixels = s_.merging.radius_pixels;
+    statistics.radius_max_pixels = s_.merging.radius_pixels;
   }
 
  private:
@@ -383,10 +383,7 @@ size_t run_trial(const PairPass& pass, const FilmFormat& film, const PairTrial& 
                  SampleVariance& variance, EstimatorStatistics& statistics) {
   std::vector<RadianceRecord> records;
   Destinations destinations{.paths = &variance};
-  if (trial.counts_records) {
-    destinations.records = &records;
-    destinations.records_per_path = trial.records_per_path;
-  }
+  if (trial.counts_records) destinations.records = &records;
   PairRendering(pass, film, {trial.paths}, destinations).run(statistics);
   return records.size();
 }

@@ -107,7 +107,6 @@ struct PairFindings {
 struct PairTrial {
   const SampleMap& paths;  ///< camera paths per pixel
   bool counts_records = false;
-  double records_per_path = PassRecords::kMaxPerPath;
 };
 
 /// Adds a pass to the film, the number of estimates included.

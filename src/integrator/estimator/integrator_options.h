@@ -18,7 +18,7 @@ struct IntegratorOptions {
   float shrink_alpha = 2.0f / 3.0f;  ///< exponent α of [E1] and [E2]
   int camera_samples_per_pass = 0;   ///< 0: the integrator's default
   int64_t memory_photons =
-      1 << 20;  ///< photons kept at once (96 bytes each); a larger pass runs in batches
+      1 << 20;  ///< photons kept at once (kBytesPerPhoton each); a larger pass runs in batches
 
   /// Options of type T, for changes.
   template <class T>

@@ -11,6 +11,9 @@ namespace {
 constexpr size_t kMaxWords = size_t{64} << 18;
 // Version of the bytes that estimators write. Increase it when the members of any value change.
 constexpr uint32_t kLayout = 1;
+// All that is saved of an estimator that has nothing to learn. No words: it has not learned yet, or
+// its value is too large.
+constexpr uint32_t kLearnsNothing = 0;
 
 }  // namespace
 
@@ -39,6 +42,7 @@ void LearningLoop::use(std::shared_ptr<const Learned> value) {
 void LearningLoop::add_state(const Estimator& estimator, const FilmFormat& format, std::string name,
                              RenderState& state) {
   const auto save = [this]() -> std::vector<uint32_t> {
+    if (!value_ && (seed_ || read_nothing_)) return {kLearnsNothing};
     if (!value_ || !seed_) return {};
     ByteWriter to;
     to(kLayout, *seed_);
@@ -52,6 +56,8 @@ void LearningLoop::add_state(const Estimator& estimator, const FilmFormat& forma
   };
   const auto load = [this, &estimator, &format](std::span<const uint32_t> words) {
     if (words.empty()) return;
+    read_nothing_ = words.size() == 1 && words[0] == kLearnsNothing;
+    if (read_nothing_) return;
     const std::span<const std::byte> bytes = std::as_bytes(words.subspan(1));
     if (words[0] > bytes.size() || words[0] + 4 <= bytes.size())
       throw IoError("its length is wrong");

@@ -33,6 +33,7 @@ class LearningLoop {
   std::optional<uint64_t> seed_;  ///< empty: nothing learned
   bool for_all_seeds_ = false;    ///< the value came from use()
   bool was_read_ = false;
+  bool read_nothing_ = false;  ///< a state said that there is nothing to learn
 };
 
 }  // namespace nephroid

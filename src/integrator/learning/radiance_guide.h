@@ -38,7 +38,7 @@ class RadianceGuide {
   /// Share of the records whose box has directions to follow.
   double guided() const { return guided_; }
   size_t bytes() const;
-  /// Directions at a point; `n` is the shading normal on the walk's side.
+  /// Directions at a point of the world; `n` is its shading normal on the walk's side.
   DirectionTree at(const Vec3f& p, const Vec3f& n, bool glossy) const;
   static void members(auto& self, auto& archive) {
     archive(self.boxes_, self.nodes_, self.guided_);

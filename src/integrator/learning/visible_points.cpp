@@ -21,8 +21,9 @@ struct SomePixels {
   SomePixels(const PixelBounds& b, uint32_t pass) : bounds(b) {
     while (b.area() / (int64_t{stride} * stride) > kWalks) ++stride;
     rows = (b.height() + stride - 1) / stride;
-    shift_x = static_cast<int>(pass) % stride;
-    shift_y = static_cast<int>(pass / 2) % stride;
+    // A crop can be narrower than the stride.
+    shift_x = static_cast<int>(pass) % std::clamp(b.width(), 1, stride);
+    shift_y = static_cast<int>(pass / 2) % std::clamp(b.height(), 1, stride);
   }
   /// Calls f(row, x, y), rows in parallel.
   template <class F>
@@ -39,14 +40,14 @@ struct SomePixels {
 
 /// Points found by the walks of one row of pixels, or of all rows.
 template <class T>
-struct Found {
+struct RowPoints {
   std::vector<T> points;
   uint64_t rays = 0;
 };
 template <class T>
-Found<T> joined(const std::vector<Found<T>>& rows) {
-  Found<T> all;
-  for (const Found<T>& row : rows) {
+RowPoints<T> joined(const std::vector<RowPoints<T>>& rows) {
+  RowPoints<T> all;
+  for (const RowPoints<T>& row : rows) {
     all.points.insert(all.points.end(), row.points.begin(), row.points.end());
     all.rays += row.rays;
   }
@@ -88,9 +89,9 @@ class CasterVisitor {
 
 /// Starts a camera path at some pixels; `run(path, sampler, points of the row)` runs its walk.
 template <class T, class Run>
-Found<T> walk_from(const Scene& scene, const SomePixels& pixels, const PhotonPass& pass,
-                   const Run& run) {
-  std::vector<Found<T>> rows(pixels.rows);
+RowPoints<T> walk_from(const Scene& scene, const SomePixels& pixels, const PhotonPass& pass,
+                       const Run& run) {
+  std::vector<RowPoints<T>> rows(pixels.rows);
   pixels.for_each(*pass.trace.control, [&](size_t row, int x, int y) {
     PathSampler sampler(pass.point, hash_combine(pass.trace.key.seed, kVisiblePointStream, x, y));
     CameraPath path = start_merging_path(scene, x, y, sampler, pass);
@@ -115,7 +116,7 @@ VisiblePoints visible_points(const Scene& scene, const FilmFormat& film, const O
     MergeWalkVisitor visitor(owned, keep);
     random_walk(scene, TransportMode::kRadiance, options.max_depth, path.walk, sampler, visitor);
   };
-  Found<Photon> all = walk_from<Photon>(scene, pixels, pass, run);
+  RowPoints<Photon> all = walk_from<Photon>(scene, pixels, pass, run);
   // Wide enough to leave no gaps between walks and to cover a merge radius.
   const float radius = std::max(2.0f * static_cast<float>(pixels.stride),
                                 first_radius(options, film.picture_pixels()));
@@ -130,7 +131,7 @@ CausticCasters caustic_casters(const Scene& scene, const FilmFormat& film, const
     CasterVisitor visitor(points);
     random_walk(scene, TransportMode::kRadiance, options.max_depth, path.walk, sampler, visitor);
   };
-  Found<Vec3f> all = walk_from<Vec3f>(scene, pixels, pass, run);
+  RowPoints<Vec3f> all = walk_from<Vec3f>(scene, pixels, pass, run);
   return {std::move(all.points), all.rays};
 }
 

@@ -36,7 +36,7 @@ struct OfTiles {
 };
 
 /// sqrt(variance / cost) of the tiles that are not black compared with the largest value.
-std::vector<double> lit_roots(const OfTiles& tiles) {
+std::vector<double> lit_square_roots(const OfTiles& tiles) {
   std::vector<double> roots;
   for (size_t i = 0; i < tiles.cost.size(); ++i) roots.push_back(tiles.samples_wanted(i));
   const double brightest = roots.empty() ? 0 : *std::max_element(roots.begin(), roots.end());
@@ -72,8 +72,8 @@ SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
   SampleAllocation shares{SampleMap(bounds, 1, spacing), SampleMap(bounds, 0, spacing)};
   const int width = shares.paths.width();
   const OfTiles paths(tiles.paths, width), chains(tiles.chains, width), choice(tiles.choice, width);
-  std::vector<double> lit = lit_roots(paths);
-  if (lit.empty()) lit = lit_roots(chains);
+  std::vector<double> lit = lit_square_roots(paths);
+  if (lit.empty()) lit = lit_square_roots(chains);
   if (lit.empty()) return shares;
   // [A2] The lit tile at the 5th percentile of noise has one path per pass, others in proportion.
   std::sort(lit.begin(), lit.end());
@@ -142,7 +142,7 @@ void Balance::let_photons_lower_variance_of_camera(const Trial& trial) {
   if (!(trial.light_paths > 0 && cost_of_light > 0 && variance_of_camera > 0)) return;
   const double p = cost_of_camera / (cost_of_light * trial.light_paths);
   const double q = variance_of_light / (trial.light_paths * variance_of_camera);
-  // Newton's method, from above the only root.
+  // Newton's method, from above the only positive root.
   double y = std::sqrt(p) + std::cbrt(2 * p * q);
   for (int i = 0; i < 20 && y > 0; ++i) y -= (y * y * y - p * y - 2 * p * q) / (3 * y * y - p);
   min_light_paths = std::max(min_light_paths, scale * trial.light_paths * y * y);

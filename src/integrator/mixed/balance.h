@@ -23,7 +23,8 @@ struct TileStatistics {
 
 /// [A2], [S2] Allocates samples for the fastest fall of the error: walks of either kind in
 /// proportion to sqrt(variance / cost), and each tile in the cheaper of both ways. `max_mean` (1 or
-/// more) limits the mean number of camera paths per pixel.
+/// more) limits the mean number of camera paths per pixel. `spacing` is the distance of the
+/// measured pixels, in pixels of the film.
 SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
                                   const TileStatistics& tiles,
                                   double max_mean = SampleMap::kMaxMean);

@@ -14,6 +14,9 @@ namespace {
 constexpr uint64_t kTrialStream = 0x747269616c;  // "trial"
 /// Passes per trial, and camera paths per pixel and pass.
 constexpr uint32_t kTrialPasses = 2, kTrialSamples = 2;
+static_assert(PixelSlices::kMaxFirstPixels * kTrialSamples * PassRecords::kMaxPerPath <=
+                  PassRecords::kMax,
+              "each path of a trial must leave records");
 
 /// A pass is planned to keep at most this share of the default of memory_photons, because the
 /// number varies. The user's own limit does not count: it must not change the picture.
@@ -124,10 +127,8 @@ Candidate Trials::run(const PairTechniques& techniques, const EmissionGuide& emi
                   film_, trial, passes[i], counts);
   costs_.rays += counts.rays;
   costs_.hold(counts.photon_bytes, counts.pixel_bytes);
-  const size_t stride =
-      PassRecords::stride(PixelSlices(film_.bounds()).first_pixels(), trial.records_per_path);
   const Trial found = trial_of(split_noise(passes, tiles_, kTrialSamples), counts, techniques,
-                               static_cast<double>(records * stride));
+                               static_cast<double>(records));
   Balance balance(found);
   balance.max_photons = kShareOfMemory * static_cast<double>(IntegratorOptions{}.memory_photons);
   balance.scale = static_cast<double>(film_.bounds().area()) / pixels_;

@@ -50,7 +50,7 @@ MergePass merge_pass(const PassKey& key, const Scene& scene, const Film& film,
   statistics.rays += gathered.rays;
   statistics.camera_paths += b.area();
   statistics.radius_min_pixels = radius_pixels;
-  if (statistics.radius_max_pixels == 0) statistics.radius_max_pixels = radius_pixels;
+  statistics.radius_max_pixels = radius_pixels;
   return {std::move(gathered.values), std::move(gathered.bias), gathered.found};
 }
 

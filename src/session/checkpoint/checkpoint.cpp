@@ -31,9 +31,11 @@ void add_learned(size_t i, EstimatorSet& set, const Film& film, RenderState& sta
                              fmt::format("{}learned.{}", RenderState::kOptionalPrefix, i), state);
 }
 
-bool has_all(const StateFile& file, const std::vector<RenderState::Stream>& streams) {
-  return std::ranges::all_of(
-      streams, [&](const RenderState::Stream& stream) { return file.has(stream.name); });
+/// True if the file has all that was learned: only these streams are optional.
+bool has_learned(const StateFile& file, const std::vector<RenderState::Stream>& streams) {
+  return std::ranges::all_of(streams, [&](const RenderState::Stream& stream) {
+    return !stream.is_optional() || file.has_words(stream.name);
+  });
 }
 
 /// Warnings about learned values that could not be read, from the reasons.
@@ -220,7 +222,7 @@ Checkpoint go_on_from(const std::string& path, const RenderIdentity& here, const
                         value_of(metadata, kChoicesKey),
                         value_of(metadata, kInstructionSetKey),
                         warnings_of_learned(passed_over),
-                        passed_over.empty() && has_all(file, state.streams)};
+                        passed_over.empty() && has_learned(file, state.streams)};
   if (auto warning = warning_of_instruction_sets(file, here, "here"))
     checkpoint.warnings.push_back(std::move(*warning));
   return checkpoint;
@@ -239,9 +241,12 @@ std::vector<std::string> learn_from(const std::string& path, const RenderIdentit
     StateFile file = open_state(path, purpose);
     require_same_render(file, here, "here", purpose);
     // With another instruction set the last bits of what is learned may differ.
-    if (const auto warning = warning_of_instruction_sets(file, here, "here"))
-      warnings.push_back(*warning + alone);
-    else if (!has_all(file, state.streams))
+    if (const std::string there = value_of(file.metadata(), kInstructionSetKey);
+        there != here.instruction_sets)
+      warnings.push_back(fmt::format("{}: learned with {}, here {}, expected the same{}",
+                                     file.path(), there.empty() ? "nothing" : there,
+                                     here.instruction_sets, alone));
+    else if (!has_learned(file, state.streams))
       warnings.push_back(file.path() + ": what was learned is not kept there" + alone);
     else
       warnings = warnings_of_learned(file.load_streams(state));

@@ -84,18 +84,6 @@ std::string layers_of(std::vector<std::string> channels) {
   return text;
 }
 
-/// The first bytes of a file, padded with zeros.
-std::array<char, 7> begin_of(const std::string& path) {
-  std::array<char, 7> begin{};
-  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
-  return begin;
-}
-
-bool is_state(const std::string& path) {
-  constexpr std::array<char, 7> kMagic = {'N', 'E', 'P', 'H', 'S', 'T', 'A'};
-  return begin_of(path) == kMagic;
-}
-
 }  // namespace
 
 bool is_picture(const std::string& path) {
@@ -103,13 +91,14 @@ bool is_picture(const std::string& path) {
   // Reading would consume the bytes of a pipe.
   if (path == kStandardInput || is_stream(path)) return false;
   constexpr std::array<char, 4> kMagic = {0x76, 0x2f, 0x31, 0x01};
-  const auto begin = begin_of(path);
-  return is_state(path) || std::ranges::equal(kMagic, std::span(begin).first(4)) ||
+  std::array<char, 4> begin{};
+  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
+  return begin == kMagic || StateFile::is_state(path) ||
          (fs::path(path).extension() == ".exr" && fs::is_regular_file(path));
 }
 
 std::string description_of_picture(const std::string& path) {
-  if (is_state(path)) {
+  if (StateFile::is_state(path)) {
     const StateFile file(path);
     return heading("state", path, file.resolution(), file.window()) +
            fmt::format("state: {}\n", state_line(file)) + entries(file.metadata());

@@ -178,6 +178,10 @@ TEST(Surroundings, AreThoseOfLookAtHoweverSteepTheCamera) {
   EXPECT_EQ(up_of("Rotate 20 0 0 1 Scale -1 1 1 LookAt 0 12 10 0 0 0 0 1 0"), Vec3d(0, 1, 0));
   // A Rotate after LookAt turns the world.
   EXPECT_EQ(up_of("LookAt 0 12 10 0 0 0 0 1 0 Rotate 90 1 0 0"), Vec3d(0, 0, -1));
+  // Only the camera of the start counts.
+  EXPECT_EQ(up_of("LookAt 0 12 10 0 0 0 0 1 0 ActiveTransform EndTime LookAt 0 12 10 0 0 0 1 0 0 "
+                  "Transform [1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1] ActiveTransform All"),
+            Vec3d(0, 1, 0));
   // A matrix has no up but the camera's own.
   EXPECT_EQ(up_of("LookAt 0 12 10 0 0 0 0 1 0 Identity"), Vec3d(0, 1, 0));
   EXPECT_EQ(up_of("Rotate -60 1 0 0"), Vec3d(0, 0, 1));

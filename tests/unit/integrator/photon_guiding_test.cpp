@@ -57,6 +57,23 @@ TEST(CausticCasters, AreWhatSpecularRunsEndOn) {
                   .empty());
 }
 
+TEST(CausticCasters, AreFoundInEveryRoundOfANarrowPicture) {
+  // 20000 pixels are looked at in steps of two.
+  const auto scene =
+      scene_from_text(R"(Film "rgb" "integer xresolution" 20000 "integer yresolution" 1
+    LookAt 0 3 -4  0 0.4 0  0 1 0
+    Camera "perspective" "float fov" 10 "float screenwindow" [-20 20 -0.1 0.1]
+    WorldBegin LightSource "infinite" "rgb L" [1 1 1]
+    Material "diffuse" Shape "bilinearmesh" "point3 P" [-90 0 -90  90 0 -90  -90 0 90  90 0 90]
+    Material "dielectric" Translate 0 0.4 0 Shape "sphere" "float radius" 0.3)");
+  const EstimatorSet set = make_estimators(Plan("doidge2012"), {}, *scene);
+  const Film film = film_for(*scene, set);
+  for (uint32_t round = 0; round < 4; ++round) {
+    const PhotonPass pass = start_photon_pass({1, round}, *scene, film.format(), {});
+    EXPECT_FALSE(caustic_casters(*scene, film.format(), pass, {}).points.empty()) << round;
+  }
+}
+
 TEST(CausticCasters, HaveNoNumbersOfTheirOwnInPathsThatAreTooShort) {
   IntegratorOptions options;
   options.max_depth = 1;

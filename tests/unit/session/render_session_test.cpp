@@ -148,6 +148,20 @@ TEST_F(RenderSessionTest, APassThatWasBegunIsGoneOnWith) {
   EXPECT_THROW(run(options), UsageError);
 }
 
+TEST_F(RenderSessionTest, APassThatWasBegunStaysAsItIsAtTheTimeLimit) {
+  RenderOptions options;
+  options.begin_with.passes = *PassRanges::parse("0..1");
+  options.begin_with.open_pass = 2;
+  options.begin_with.seconds = 100;
+  options.time_limit = 100;
+  film_->add_estimates(0, 2);
+  const RenderResult result = run(options);
+  EXPECT_EQ(result.reason, StopReason::kTime);
+  EXPECT_TRUE(script_.passes.empty());
+  options.time_limit = 101;
+  EXPECT_EQ(run(options).passes_of_run, 1u);
+}
+
 TEST_F(RenderSessionTest, FirstRuleMetWins) {
   RenderOptions options;
   options.time_limit = 100;

@@ -98,6 +98,13 @@ TEST_F(SessionPictures, GoesOnWhereEarlierRunsWere) {
   EXPECT_EQ(result.passes_of_run, 0u);
   EXPECT_TRUE(script_.passes.empty());
   EXPECT_EQ(passes_in(options.output), "0..9");
+  // A pass that earlier runs began, but that this one does not want, changes nothing.
+  options.begin_with.open_pass = 12;
+  run(options);
+  const Metadata metadata = read_picture(options.output).metadata;
+  EXPECT_EQ(value_of(metadata, "nephroid:choices"), options.begin_with.choices);
+  EXPECT_EQ(value_of(metadata, "nephroid:history"), options.begin_with.history);
+  options.begin_with.open_pass.reset();
   // Three more seconds are three more passes.
   options.last_pass.reset();
   options.time_limit = 103;
