@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "input/convert/pbrt_writer.h"
 #include "input/scene_reader.h"
+#include "session/checkpoint/checkpoint.h"
 #include "session/process_memory.h"
 
 namespace nephroid {
@@ -27,6 +28,10 @@ std::string beside_it(const std::string& output, int files) {
 }  // namespace
 
 int run_convert(const ConvertCommand& command) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(command.input, command.output, ignored))
+    throw UsageError(fmt::format("OUT.pbrt: '{}' is the scene to convert, expected another name",
+                                 command.output));
   MemoryLimit limit;
   limit.set(machine_memory());
   Diagnostics diagnostics;
@@ -34,6 +39,13 @@ int run_convert(const ConvertCommand& command) {
   for (const Warning& warning : diagnostics.warnings())
     print_warning(located(warning.where, warning.message));
   for (const Warning& note : diagnostics.notes()) print_notes({located(note.where, note.message)});
+  if (std::filesystem::exists(command.output, ignored)) {
+    // Somebody may have edited it.
+    const std::string kept = kept_name(command.output);
+    std::filesystem::rename(command.output, kept, ignored);
+    if (!ignored)
+      print_warning(fmt::format("{} is there already; it is kept as {}", command.output, kept));
+  }
   const int files = write_pbrt(scene, command.output);
   fmt::print("wrote {}{}\n", command.output, beside_it(command.output, files));
   return static_cast<int>(ExitStatus::kDone);

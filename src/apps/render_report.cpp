@@ -5,6 +5,7 @@
 #include "core/counted.h"
 #include "film/film_output.h"
 #include "film/state_file.h"
+#include "session/checkpoint/checkpoint.h"
 #include "session/report/choices_report.h"
 #include "session/report/noise.h"
 #include "session/report/short_number.h"
@@ -25,7 +26,7 @@ std::string summary(const RenderResult& result, const Film& film) {
                                    : ", and a part of the first: " + text_of_unreached_pixels(film);
   if (rays > 0 && result.seconds > 0)
     text += fmt::format(", {} rays/s", short_number(static_cast<double>(rays) / result.seconds));
-  if (result.passes_of_run == 0 && !result.has_unfinished_pass && result.passes_done > 0)
+  if (rays == 0 && result.passes_done > 0)
     text += result.reason == StopReason::kTime ? "; --time counts all runs: a longer one goes on"
                                                : "; more --passes go on";
   if (result.error) text += fmt::format(", estimated error {:.3g}", *result.error);
@@ -60,9 +61,12 @@ std::string route_lines(const Film& film) {
 }  // namespace
 
 std::string render_report(const RenderResult& result, const Film& film, const std::string& output) {
-  if (!result.has_picture)
-    return fmt::format("{} before the first pixels were rendered: there is no {}\n",
-                       stop_reason_text(result.reason), output.empty() ? "picture" : output);
+  if (!result.has_picture) {
+    const std::string kept = output.empty() ? "" : kept_picture(output).value_or("");
+    return fmt::format("{} before the first pixels were rendered: there is no {}{}\n",
+                       stop_reason_text(result.reason), output.empty() ? "picture" : output,
+                       kept.empty() ? "" : ", an earlier one is " + kept);
+  }
   std::string text = summary(result, film);
   for (const std::string& line :
        choices_report(result.first_pass_statistics, result.statistics, result.passes_of_run))

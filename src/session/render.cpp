@@ -21,6 +21,14 @@
 namespace nephroid {
 namespace {
 
+std::string no_picture_to_go_on_from(const std::string& path) {
+  std::string text =
+      fmt::format("--resume: there is no {} yet, the render starts at its first pass", path);
+  if (const auto kept = kept_picture(path))
+    text += fmt::format("; to go on from {}, stop, and give its files their old names", *kept);
+  return text;
+}
+
 using Warn = std::function<void(const std::string&)>;
 
 void warn_of(const std::vector<std::string>& warnings, const Warn& warn) {
@@ -157,9 +165,7 @@ Render::Render(const RenderRequest& request, const LoadedScene& loaded, RenderWa
       (std::filesystem::exists(saved) || std::filesystem::exists(state_path_beside(saved))))
     resume(saved, options, scene, set_, *film_, warnings_.output);
   else if (request.resume)
-    warn_of(
-        {fmt::format("--resume: there is no {} yet, the render starts at its first pass", saved)},
-        warnings_.output);
+    warn_of({no_picture_to_go_on_from(saved)}, warnings_.output);
   else if (const auto warning = warning_of_replacing(options.output, identity_))
     warn_of({*warning}, warnings_.output);
 

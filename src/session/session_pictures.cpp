@@ -138,7 +138,7 @@ Metadata RenderSession::state_metadata() const {
   Checkpoint progress;
   progress.passes = done_;
   if (film_.has_open_pass()) progress.open_pass = open_pass_;
-  progress.seconds = seconds_of_all_runs();
+  progress.seconds = has_begun_pass_ ? seconds_of_all_runs() : before.seconds;
   progress.history = before.history;
   if (has_begun_pass_)
     progress.history +=

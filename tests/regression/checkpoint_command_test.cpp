@@ -53,6 +53,12 @@ TEST_F(CheckpointCommand, WhatIsResumedIsOneRun) {
   }
 }
 
+TEST_F(CheckpointCommand, ResumingNamesAnEarlierPictureThatIsKept) {
+  render("kept.previous", {"--passes", "1", "--quiet"});
+  expect_said(render("kept", {"--passes", "1", "--resume", "--quiet"}),
+              "; to go on from kept.previous.exr, stop, and give its files their old names");
+}
+
 TEST_F(CheckpointCommand, ResumingNothingIsSaid) {
   expect_said(render("new", {"--passes", "1", "--resume", "--quiet"}),
               "there is no new.exr yet, the render starts at its first pass");

@@ -85,6 +85,32 @@ TEST(SceneInput, ClassesOfMaterialsAreListedAndWhatIsNormalIsNoWarning) {
   EXPECT_EQ(run.errors.find("exposure"), std::string::npos) << run.errors;
 }
 
+TEST(SceneInput, ConvertKeepsWhatItWouldReplace) {
+  SceneFolder folder;
+  const std::string scene = "Camera \"perspective\"\nWorldBegin\n# mine\nShape \"sphere\"\n";
+  folder.write("a.pbrt", scene);
+  folder.write("b.pbrt", "# edited\n");
+  const auto converted = [&](const std::string& to) {
+    return run_program(folder.path("."), {"convert", "a.pbrt", to});
+  };
+  const auto content = [&](const std::string& name) {
+    std::ifstream file(folder.path(name));
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  };
+  const ProgramRun itself = converted("./a.pbrt");
+  EXPECT_EQ(itself.status, 2);
+  EXPECT_NE(itself.errors.find("'./a.pbrt' is the scene to convert"), std::string::npos)
+      << itself.errors;
+  EXPECT_EQ(content("a.pbrt"), scene);
+  const ProgramRun over = converted("b.pbrt");
+  EXPECT_EQ(over.status, 0) << over.errors;
+  EXPECT_NE(over.errors.find("b.pbrt is there already; it is kept as b.previous.pbrt"),
+            std::string::npos)
+      << over.errors;
+  EXPECT_EQ(content("b.previous.pbrt"), "# edited\n");
+  EXPECT_NE(content("b.pbrt").find("Shape \"sphere\""), std::string::npos);
+}
+
 TEST(SceneInput, PicturesOfTwoFilesDoNotMeet) {
   SceneFolder folder;
   const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

@@ -30,16 +30,18 @@ void LearnedMix::add_to(EstimatorStatistics& s) const {
     s.notes.push_back(fmt::format("camera paths guided at {:.3g} % of the rough surfaces they met",
                                   100 * plan_.directions.guided()));
   if (plan_.is_even) return;
-  const auto note = [&s](const SampleMap& map, const char* what) {
-    const std::string mean = fmt::format("{:.3g} {} per pixel and pass", map.mean(), what);
+  const auto note = [&s](const SampleMap& map, const char* one, const char* many) {
+    const std::string mean = fmt::format("{:.3g} {} per pixel and pass", map.mean(),
+                                         map.most() == 1 && map.fewest() == 1 ? one : many);
     s.notes.push_back(map.fewest() == map.most()
                           ? mean
                           : fmt::format("{} on average, {} to {} depending on the tile", mean,
                                         map.fewest(), map.most()));
   };
-  note(plan_.samples.paths, "camera paths");
+  note(plan_.samples.paths, "camera path", "camera paths");
   if (techniques.separates_chains && plan_.samples.chains.most() > 0)
-    note(plan_.samples.chains, "walks to lights seen through smooth glass and mirrors");
+    note(plan_.samples.chains, "walk to lights seen through smooth glass and mirrors",
+         "walks to lights seen through smooth glass and mirrors");
 }
 
 }  // namespace nephroid

@@ -135,9 +135,6 @@ void add_estimates(const Film& film, Metadata* metadata) {
                            fmt::format("{}", film.estimates(layout.groups[r])));
 }
 
-namespace {
-
-/// "a/b.exr" -> "a/b.previous.exr".
 std::string kept_name(const std::string& name) {
   const std::filesystem::path path(name);
   return std::filesystem::path(path)
@@ -145,7 +142,11 @@ std::string kept_name(const std::string& name) {
       .string();
 }
 
-}  // namespace
+std::optional<std::string> kept_picture(const std::string& path) {
+  std::error_code ignored;
+  const std::string kept = kept_name(path);
+  return std::filesystem::exists(kept, ignored) ? std::optional(kept) : std::nullopt;
+}
 
 void check_picture_can_be_written(const std::string& output) {
   for (const std::string& path : {output, png_path_beside(output), state_path_beside(output)})
@@ -247,7 +248,8 @@ std::vector<std::string> learn_from(const std::string& path, const RenderIdentit
                                      file.path(), there.empty() ? "nothing" : there,
                                      here.instruction_sets, alone));
     else if (!has_learned(file, state.streams))
-      warnings.push_back(file.path() + ": what was learned is not kept there" + alone);
+      warnings.push_back(file.path() +
+                         ": what was learned is not kept there, as in a sum of merge" + alone);
     else
       warnings = warnings_of_learned(file.load_streams(state));
   } catch (const IoError& error) {

@@ -40,13 +40,17 @@ StateFile open_state(const std::string& path, const std::string& purpose);
 /// killed processes of this machine have left.
 void check_picture_can_be_written(const std::string& output);
 
+/// The name under which a file that is about to be replaced is kept: "a/b.exr" becomes
+/// "a/b.previous.exr".
+std::string kept_name(const std::string& name);
+/// The kept_name() of a picture, if there is one.
+std::optional<std::string> kept_picture(const std::string& path);
 /// A file that a new render is about to replace, and the name under which it is kept.
 struct KeptFile {
   std::string path, kept;
 };
-/// Picture, state and PNG, if they exist: "a/b.exr" is kept as "a/b.previous.exr". A PNG alone
-/// comes from a render that ended before its first picture. It is kept unless it would replace an
-/// earlier kept one.
+/// Picture, state and PNG, if they exist, with kept_name() of each. A PNG alone comes from a render
+/// that ended before its first picture. It is kept unless it would replace an earlier kept one.
 std::vector<KeptFile> files_to_keep(const std::string& output);
 /// Renames files_to_keep(). Throws IoError.
 void keep_files(const std::string& output);

@@ -104,6 +104,7 @@ TEST_F(SessionPictures, GoesOnWhereEarlierRunsWere) {
   const Metadata metadata = read_picture(options.output).metadata;
   EXPECT_EQ(value_of(metadata, "nephroid:choices"), options.begin_with.choices);
   EXPECT_EQ(value_of(metadata, "nephroid:history"), options.begin_with.history);
+  EXPECT_EQ(value_of(metadata, "nephroid:seconds"), "100.000");
   options.begin_with.open_pass.reset();
   // Three more seconds are three more passes.
   options.last_pass.reset();
