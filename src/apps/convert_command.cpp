@@ -42,9 +42,12 @@ int run_convert(const ConvertCommand& command) {
   if (std::filesystem::exists(command.output, ignored)) {
     // Somebody may have edited it.
     const std::string kept = kept_name(command.output);
-    std::filesystem::rename(command.output, kept, ignored);
-    if (!ignored)
-      print_warning(fmt::format("{} is there already; it is kept as {}", command.output, kept));
+    std::error_code error;
+    std::filesystem::rename(command.output, kept, error);
+    if (error)
+      throw IoError(
+          fmt::format("{}: cannot be kept as {}: {}", command.output, kept, error.message()));
+    print_warning(fmt::format("{} is there already; it is kept as {}", command.output, kept));
   }
   const int files = write_pbrt(scene, command.output);
   fmt::print("wrote {}{}\n", command.output, beside_it(command.output, files));

@@ -200,7 +200,7 @@ class RenderSession {
   double next_preview_seconds_ = 0, next_checkpoint_seconds_ = 0;
   double next_picture_seconds_ = 0;   ///< next call of picture_
   double next_progress_seconds_ = 0;  ///< next progress report within a pass
-  bool has_begun_pass_ = false;       ///< true after the first sample of this run
+  bool has_begun_pass_ = false;       ///< this run has added to a pass
   bool has_written_ = false;          ///< true after the first picture or PNG
 };
 
