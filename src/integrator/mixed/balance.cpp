@@ -100,6 +100,12 @@ SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
   }
 }
 
+double max_mean_of_film(int64_t pixels) {
+  // Camera paths of a pass, and a limit below which all tiles would soon have equally many.
+  constexpr double kMaxPaths = 3.2e6, kLeast = 1.5;
+  return std::clamp(kMaxPaths / static_cast<double>(pixels), kLeast, SampleMap::kMaxMean);
+}
+
 double Trial::min_variance_of_unseen(const Trial& other) const {
   const double unseen = other.light - light - 2 * other.error;
   return unseen > 0 ? samples * unseen * unseen / (1.1 * other.light) : 0;

@@ -29,6 +29,10 @@ SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
                                   const TileStatistics& tiles,
                                   double max_mean = SampleMap::kMaxMean);
 
+/// The largest mean of camera paths per pixel and pass that is allocated in a film of so many
+/// pixels: less in a large one, whose first whole picture would come late (ADR 29).
+double max_mean_of_film(int64_t pixels);
+
 /// Results of trial passes over a lattice of pixels, as if the lattice were the film.
 struct Trial {
   double variance_of_camera = 0;  ///< variance of one camera path, given the photons

@@ -41,9 +41,9 @@ int spacing_of(const FilmFormat& film) {
 
 SampleAllocation allocation(const PairFindings::Variance& v, const MixPlan& plan,
                             const FilmFormat& film) {
-  const double most = plan.balance
-                          ? std::clamp(plan.balance->max_camera_paths(), 1.0, SampleMap::kMaxMean)
-                          : SampleMap::kMaxMean;
+  const double limit = max_mean_of_film(film.bounds().area());
+  const double most =
+      plan.balance ? std::clamp(plan.balance->max_camera_paths(), 1.0, limit) : limit;
   if (!plan.techniques.separates_chains)
     return allocate_samples(film.bounds(), spacing_of(film), {v.paths.by_tile(), {}, {}}, most);
   return allocate_samples(film.bounds(), spacing_of(film),

@@ -192,6 +192,14 @@ TEST(AllocateSamples, HasFewPathsAPass) {
   }
 }
 
+TEST(MaxMeanOfFilm, LimitsThePassesOfLargeFilms) {
+  EXPECT_EQ(max_mean_of_film(512 * 512), SampleMap::kMaxMean);
+  EXPECT_EQ(max_mean_of_film(1280 * 1000), SampleMap::kMaxMean);
+  EXPECT_DOUBLE_EQ(max_mean_of_film(1600 * 1000), 2);
+  EXPECT_EQ(max_mean_of_film(3840 * 2160), 1.5);
+  EXPECT_EQ(max_mean_of_film(1), SampleMap::kMaxMean);
+}
+
 // [A4]
 TEST(Trial, KnowsTheLeastVarianceOfWhatItHasNotSeen) {
   const Trial blind{.light = 2, .error = 0.01, .samples = 500},
