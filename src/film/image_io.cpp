@@ -66,7 +66,12 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
   auto in = OIIO::ImageInput::open(path, &wish);
   if (!in) {
     const std::string reason = OIIO::geterror();
-    throw IoError(path + ": cannot read: " + (reason.empty() ? "unknown format" : reason));
+    const bool is_unknown = reason.empty() || reason.find("format reader") != std::string::npos;
+    throw IoError(path + ": cannot read: " +
+                  (is_unknown
+                       ? "this is no picture in a format that the program knows, expected EXR, "
+                         "PNG, JPEG, HDR, PFM, TGA, TIFF or BMP"
+                       : reason));
   }
   return in;
 }

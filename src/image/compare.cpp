@@ -217,6 +217,7 @@ Comparison compare_pictures(const Picture& reference, const Picture& test,
     }
   }
   Comparison result;
+  result.is_same = r == x;
   const double mean_square = squares / (3.0 * static_cast<double>(r.size()));
   result.rmse = std::copysign(std::sqrt(std::abs(mean_square)), mean_square);
   result.relmse = mean_of(kept);

@@ -39,6 +39,7 @@ struct Deviations {
 inline constexpr double kDeviationLimit = 3.3;
 
 struct Comparison {
+  bool is_same = false;  ///< every R, G and B is the same
   double rmse = 0;
   double relmse = 0;       ///< mean over pixels and channels of (x - r)^2 / (r^2 + 0.01)
   double relmse_trim = 0;  ///< the same without the worst 0.1 % of pixels (at least one)

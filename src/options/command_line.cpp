@@ -88,6 +88,16 @@ std::string not_expected(const std::vector<std::string>& extra, const std::strin
   return fmt::format("unknown option '{}'{}", name, did_you_mean(name, known));
 }
 
+/// The message for an option of `command` without its value. CLI11's text begins with its name.
+std::string without_value(const std::string& text, const std::string& command) {
+  const std::string name = text.substr(0, text.find(':'));
+  for (const OptionDescription& row : option_table())
+    if (command == row.command && (name == row.name || name == row.short_name))
+      return fmt::format("{} has no value, expected {} {} (see nephroid {} --help)", name, name,
+                         row.value, command);
+  return fmt::format("{} (see nephroid {} --help)", text, command);
+}
+
 /// A page of docs/ that tools/update_docs writes.
 struct Page {
   const char* flag;
@@ -147,6 +157,8 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     throw UsageError(fmt::format("{} (see nephroid {}{}--help)",
                                  not_expected(app.remaining(true), command), command,
                                  command.empty() ? "" : " "));
+  } catch (const CLI::ArgumentMismatch& error) {
+    throw UsageError(without_value(error.what(), chosen_command()));
   } catch (const CLI::ParseError& error) {
     const std::string command = chosen_command();
     throw UsageError(fmt::format("{} (see nephroid {}{}--help)", error.what(), command,

@@ -232,6 +232,7 @@ std::vector<LightPtr> make_area_lights(const DirectiveDescription& description, 
   light_name(p);  // throws if "name" is no string; scene_labels.h uses it
   const ParameterSet none;
   const ImagePlacement placement(e.image ? p : none, "", WrapMode::kClamp);
+  warn_of_unused_flux(p, diagnostics);
   p.report_unused("area light \"" + description.type + "\"", type, diagnostics);
 
   const std::optional<float> opacity = alpha ? alpha->constant() : 1.0f;

@@ -1,4 +1,6 @@
 // Parameters common to all lights: colour, photometric scale, image; see light_table.h.
+#include <fmt/format.h>
+
 #include "scene/light/cube_map.h"
 #include "scene/light/light_table.h"
 #include "scene/light/sphere_map.h"
@@ -109,6 +111,16 @@ float scale_to(const Parameter& wanted, float value, double unscaled, float scal
                      "the light would have to be scaled by more than 1e30 to emit this \"" +
                          wanted.name + "\", expected a smaller value or a brighter \"L\" or image");
   return static_cast<float>(scaled);
+}
+
+void warn_of_unused_flux(const ParameterSet& parameters, Diagnostics& diagnostics) {
+  for (const char* name : {"power", "illuminance"}) {
+    const Parameter* flux = parameters.peek(name);
+    if (flux && flux->used && flux->numbers.size() == 1 && !(flux->numbers[0] > 0))
+      diagnostics.warn(flux->where, fmt::format("\"{}\" is {} and so not used, expected a value "
+                                                "above 0; \"scale\" 0 turns a light off",
+                                                name, flux->numbers[0]));
+  }
 }
 
 ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files) {

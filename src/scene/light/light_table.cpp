@@ -118,6 +118,7 @@ std::vector<LightPtr> make_lights(const SceneDescription& description, Diagnosti
       throw SceneError(d.where, "light \"" + d.type +
                                     "\" is too bright for floating-point numbers, expected a power "
                                     "up to 1e30");
+    warn_of_unused_flux(d.parameters, diagnostics);
     d.parameters.report_unused("light \"" + d.type + "\"", row, diagnostics);
   }
   return lights;

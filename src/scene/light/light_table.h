@@ -65,6 +65,10 @@ float image_emission_scale(const ParameterSet& parameters, const RgbColorSpace& 
 /// `wanted` asks for; 0 if `unscaled` is 0. Throws SceneError if the result overflows.
 float scale_to(const Parameter& wanted, float value, double unscaled, float scale);
 
+/// Warns of a "power" or "illuminance" that the light has read but not used, since it is not above
+/// 0.
+void warn_of_unused_flux(const ParameterSet& parameters, Diagnostics& diagnostics);
+
 /// The image named by "filename". Throws SceneError if it has infinite, NaN or enormous values.
 ImagePtr read_light_image(const ParameterSet& parameters, SceneFiles& files);
 

@@ -44,6 +44,13 @@ TEST(Compare, HandComputed) {
   EXPECT_FALSE(c.mean.half_width.has_value());
 }
 
+TEST(Compare, TellsWhetherColoursAreTheSame) {
+  const Picture reference = rgb({1, 1, 1, 0, 0, 0});
+  EXPECT_TRUE(compare_pictures(reference, rgb({1, 1, 1, 0, 0, 0}), {}).is_same);
+  EXPECT_FALSE(
+      compare_pictures(reference, rgb({1, 1, std::nextafter(1.0f, 2.0f), 0, 0, 0}), {}).is_same);
+}
+
 TEST(Compare, TrimDropsOneInAThousand) {
   std::vector<float> reference(3 * 3000, 1.0f), test = reference;
   // Three pixels of 3000 may be dropped: the fourth largest stays.

@@ -85,6 +85,26 @@ TEST_F(LightPower, IlluminanceIsWhatArrives) {
     }
 }
 
+TEST_F(LightPower, WarnsOfFluxThatIsNotAboveZero) {
+  const auto warnings = [](const std::string& text) {
+    Diagnostics found;
+    lights_of(text, ".", &found);
+    std::string all;
+    for (const Warning& w : found.warnings()) all += w.message + '\n';
+    return all;
+  };
+  EXPECT_NE(warnings("LightSource \"point\" \"float power\" 0")
+                .find("\"power\" is 0 and so not used, expected a value above 0"),
+            std::string::npos);
+  EXPECT_NE(warnings("LightSource \"infinite\" \"float illuminance\" -2")
+                .find("\"illuminance\" is -2 and so not used"),
+            std::string::npos);
+  EXPECT_EQ(warnings("LightSource \"point\" \"float power\" 3"), "");
+  Diagnostics found;
+  area_lights_of("\"float power\" 0", rectangle(1, 2, 3), nullptr, ".", &found);
+  EXPECT_EQ(found.warnings().size(), 1u);
+}
+
 TEST_F(LightPower, BlackImagesAreBlackWhateverTheirPower) {
   write_square(scratch.file("black.exr"), 2, std::vector<float>(12, 0.0f));
   const auto lamp = area_lights_of("\"string filename\" \"black.exr\" \"float power\" 60",

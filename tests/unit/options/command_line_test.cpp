@@ -136,6 +136,10 @@ TEST(CommandLine, Errors) {
             "unknown option '--resumes', did you mean \"--resume\"? (see nephroid render --help)");
   EXPECT_EQ(usage_error("info s.pbrt --zoom=3"),
             "unknown option '--zoom' (see nephroid info --help)");
+  EXPECT_EQ(usage_error("render a.pbrt --time"),
+            "--time has no value, expected --time TIME (see nephroid render --help)");
+  EXPECT_EQ(usage_error("render a.pbrt -o"),
+            "--output has no value, expected --output OUT.exr (see nephroid render --help)");
   EXPECT_EQ(
       usage_error("rendr s.pbrt"),
       "unknown command 'rendr', expected one of: render, view, merge, mix, info, routes, compare, "
