@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 #include "core/errors.h"
@@ -113,6 +114,11 @@ uint64_t OutlierRejection::similar_in(const Window& w, int group, int level) con
   return similar;
 }
 
+uint64_t OutlierRejection::as_bright_in(int group, size_t pixel, int level) const {
+  const std::array<uint8_t, kLevels>& counts = pixels_[group][pixel].counts;
+  return std::accumulate(counts.begin() + std::max(0, level - 1), counts.end(), uint64_t{0});
+}
+
 bool OutlierRejection::is_confirmed(int group, size_t pixel, int level, uint64_t estimates,
                                     std::span<const float> shown) const {
   // [O3]
@@ -127,11 +133,14 @@ bool OutlierRejection::is_confirmed(int group, size_t pixel, int level, uint64_t
   // [O2]
   const double light_paths =
       settings_.neighbours * std::max(1.0, double{settings_.exposed_pixels[group]});
+  const auto counted = static_cast<double>(std::min(estimates, kMaxCounted));
   const auto confirms = [&](const Window& window, double enough) {
-    const auto all = static_cast<double>(std::min(estimates, kMaxCounted)) * window.area();
-    return static_cast<double>(similar_in(window, group, level)) >= std::min(enough, all / 2);
+    return static_cast<double>(similar_in(window, group, level)) >=
+           std::min(enough, counted * window.area() / 2);
   };
-  return confirms(w, light_paths) ||
+  return static_cast<double>(as_bright_in(group, pixel, level)) >=
+             std::max<double>(settings_.neighbours, counted / 2) ||
+         confirms(w, light_paths) ||
          confirms(window_around(pixel, kWideWindowRadius), kWideNeighbours * light_paths);
 }
 

@@ -95,6 +95,8 @@ class OutlierRejection {
   Window window_around(size_t pixel, int radius) const;
   /// Number of estimates within one octave of `level`.
   uint64_t similar_in(const Window& window, int group, int level) const;
+  /// Number of the pixel's estimates that are brighter, or at most one octave darker.
+  uint64_t as_bright_in(int group, size_t pixel, int level) const;
   bool is_confirmed(int group, size_t pixel, int level, uint64_t estimates,
                     std::span<const float> shown) const;
 

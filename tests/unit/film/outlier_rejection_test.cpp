@@ -210,6 +210,22 @@ TEST(OutlierRejection, APhotonDoesNotConfirmItself) {
   }
 }
 
+// The image of a small lamp: always bright, by different octaves, and in one pixel alone, where
+// photons of one light path would expose many.
+TEST(OutlierRejection, APixelThatIsMostlyBrightIsShown) {
+  for (const uint64_t one_in : {2u, 3u}) {
+    Film film = rejecting(1, 100);
+    uint64_t bright = 0;
+    for (uint64_t pass = 0; pass < 40; ++pass) {
+      add_pass(film, pass);
+      if (pass % one_in == 0) add_one(film, 0, 7, 6, grey(++bright % 2 == 0 ? 4000.0f : 1000.0f));
+      film.finish_pass();
+    }
+    // Those of the higher octave are a quarter of all.
+    EXPECT_EQ(film.rejection()->held_estimates(), one_in == 2 ? 10u : bright);
+  }
+}
+
 // Counts of a pixel saturate at 255, and so does the required count, even if one light path splats
 // on all pixels.
 TEST(OutlierRejection, HalfOf255PassesConfirmHoweverManyThereAre) {
