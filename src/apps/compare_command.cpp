@@ -42,7 +42,8 @@ int run_compare(const CompareCommand& command) {
   fmt::print("flip={:.6g} (mean, at exposure {:g})\n", flip(reference, test, command.exposure),
              command.exposure);
   print_dim_mean(result.dim_mean);
-  if (result.is_same) fmt::print("R, G and B are the same in every pixel\n");
+  if (result.is_same)
+    fmt::print("the pictures are the same: R, G and B are equal in every pixel\n");
   if (result.deviations)
     fmt::print(
         "z_within={:.5g} z_rms={:.4g} z_in_95={:.4g} (z is the difference over its stated error: "

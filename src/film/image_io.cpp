@@ -70,7 +70,7 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path) {
     throw IoError(path + ": cannot read: " +
                   (is_unknown
                        ? "this is no picture in a format that the program knows, expected EXR, "
-                         "PNG, JPEG, HDR, PFM, TGA, TIFF or BMP"
+                         "PNG, JPEG, WebP, HDR, PFM, TGA, TIFF or BMP"
                        : reason));
   }
   return in;

@@ -110,8 +110,8 @@ double mean_of(const std::vector<double>& values) {
 
 /// Mean of `values` without the pixels with the largest `errors`.
 double trimmed_mean(const std::vector<double>& errors, const std::vector<double>& values) {
-  const size_t drop =
-      std::max<size_t>(1, static_cast<size_t>(static_cast<double>(errors.size()) * kTrimmedShare));
+  const auto share = static_cast<size_t>(static_cast<double>(errors.size()) * kTrimmedShare);
+  const size_t drop = std::min(std::max<size_t>(1, share), errors.size() - 1);
   std::vector<size_t> order(errors.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(),

@@ -95,7 +95,7 @@ std::string without_value(const std::string& text, const std::string& command) {
     if (command == row.command && (name == row.name || name == row.short_name))
       return fmt::format("{} has no value, expected {} {} (see nephroid {} --help)", name, name,
                          row.value, command);
-  return fmt::format("{} (see nephroid {} --help)", text, command);
+  return fmt::format("{} (see nephroid {}{}--help)", text, command, command.empty() ? "" : " ");
 }
 
 /// A page of docs/ that tools/update_docs writes.

@@ -63,9 +63,9 @@ const OptionDescription kRows[] = {
      "surface under it has the value 1.",
      false, set_environment},
     {"", "--sun", "", "ELEVATION,AZIMUTH", "degrees", "none", "Scene",
-     "Light the scene by the sun and a clear sky, angles in degrees. Azimuth counts from north to "
-     "east; north is -z "
-     "where +y is up. It replaces distant and infinite lights, and the exposure is set for it. "
+     "Light the scene by a clear sky and the sun at these degrees. Azimuth counts from north to "
+     "east; north is -z where +y is up. It replaces distant and infinite lights, and the exposure "
+     "is set for it. "
      "The sky is Hosek and Wilkie's (2012), the air Preetham's (1999), both with turbidity 3; the "
      "sun has 0.53 degrees.",
      false, set_sun},

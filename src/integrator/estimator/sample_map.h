@@ -15,7 +15,7 @@ class SampleMap {
  public:
   static constexpr int kTile = 4;  ///< pixels of the lattice across a tile
   static constexpr int kMax = 8, kMaxChainWalks = 32;
-  static constexpr double kMaxMean = 2.5;  ///< mean limit of allocated maps
+  static constexpr double kMaxMean = 2.5;  ///< largest limit of a map's mean
 
   /// A value to be read into.
   SampleMap() = default;

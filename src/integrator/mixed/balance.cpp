@@ -67,8 +67,17 @@ double winsorized_mean(std::vector<double> tiles) {
   return sum / static_cast<double>(tiles.size());
 }
 
+MeanLimits limits_of_film(int64_t pixels) {
+  constexpr double kMaxPathsOfPass = 3.2e6;
+  constexpr double kMinLimit = 1.5;  // below it, nearly all tiles would have one path
+  MeanLimits limits;
+  limits.paths = std::clamp(kMaxPathsOfPass / static_cast<double>(pixels), kMinLimit, limits.paths);
+  if (limits.paths < SampleMap::kMaxMean) limits.walks = 2 * limits.paths;
+  return limits;
+}
+
 SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
-                                  const TileStatistics& tiles, double max_mean) {
+                                  const TileStatistics& tiles, const MeanLimits& limits) {
   SampleAllocation shares{SampleMap(bounds, 1, spacing), SampleMap(bounds, 0, spacing)};
   const int width = shares.paths.width();
   const OfTiles paths(tiles.paths, width), chains(tiles.chains, width), choice(tiles.choice, width);
@@ -96,14 +105,10 @@ SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
       if (!apart) shares.paths.counts()[i] = all.samples;
       shares.chains.counts()[i] = apart ? of_chains.samples : 0;
     }
-    if (shares.paths.mean() <= max_mean) return shares;
+    if (shares.paths.mean() <= limits.paths &&
+        shares.paths.mean() + shares.chains.mean() <= limits.walks)
+      return shares;
   }
-}
-
-double max_mean_of_film(int64_t pixels) {
-  // Camera paths of a pass, and a limit below which all tiles would soon have equally many.
-  constexpr double kMaxPaths = 3.2e6, kLeast = 1.5;
-  return std::clamp(kMaxPaths / static_cast<double>(pixels), kLeast, SampleMap::kMaxMean);
 }
 
 double Trial::min_variance_of_unseen(const Trial& other) const {

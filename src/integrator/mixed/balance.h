@@ -21,17 +21,20 @@ struct TileStatistics {
   SampleVariance::ByTile choice;  ///< chains found by camera paths, at no extra cost
 };
 
-/// [A2], [S2] Allocates samples for the fastest fall of the error: walks of either kind in
-/// proportion to sqrt(variance / cost), and each tile in the cheaper of both ways. `max_mean` (1 or
-/// more) limits the mean number of camera paths per pixel. `spacing` is the distance of the
-/// measured pixels, in pixels of the film.
-SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
-                                  const TileStatistics& tiles,
-                                  double max_mean = SampleMap::kMaxMean);
+/// The largest means per pixel and pass that are allocated.
+struct MeanLimits {
+  double paths = SampleMap::kMaxMean;  ///< of camera paths, 1 or more
+  double walks = kInfinity;            ///< of camera paths and walks for chains, 2 or more
+};
+/// The limits in a film, or a crop of one, with so many pixels. They are lower in a large one,
+/// whose first whole picture would come late (ADR 29).
+MeanLimits limits_of_film(int64_t pixels);
 
-/// The largest mean of camera paths per pixel and pass that is allocated in a film of so many
-/// pixels: less in a large one, whose first whole picture would come late (ADR 29).
-double max_mean_of_film(int64_t pixels);
+/// [A2], [S2] Allocates samples for the fastest fall of the error: walks of either kind in
+/// proportion to sqrt(variance / cost), and each tile in the cheaper of both ways. `spacing` is the
+/// distance of the measured pixels, in pixels of the film.
+SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
+                                  const TileStatistics& tiles, const MeanLimits& limits = {});
 
 /// Results of trial passes over a lattice of pixels, as if the lattice were the film.
 struct Trial {

@@ -41,15 +41,14 @@ int spacing_of(const FilmFormat& film) {
 
 SampleAllocation allocation(const PairFindings::Variance& v, const MixPlan& plan,
                             const FilmFormat& film) {
-  const double limit = max_mean_of_film(film.bounds().area());
-  const double most =
-      plan.balance ? std::clamp(plan.balance->max_camera_paths(), 1.0, limit) : limit;
+  MeanLimits limits = limits_of_film(film.bounds().area());
+  if (plan.balance) limits.paths = std::clamp(plan.balance->max_camera_paths(), 1.0, limits.paths);
   if (!plan.techniques.separates_chains)
-    return allocate_samples(film.bounds(), spacing_of(film), {v.paths.by_tile(), {}, {}}, most);
+    return allocate_samples(film.bounds(), spacing_of(film), {v.paths.by_tile(), {}, {}}, limits);
   return allocate_samples(film.bounds(), spacing_of(film),
                           {v.paths.by_tile(&v.chains.walks), v.chains.walks.by_tile(&v.paths),
                            v.chains.choice.by_tile(&v.paths)},
-                          most);
+                          limits);
 }
 
 /// True if paths of the group may have events in a medium of the scene.

@@ -116,7 +116,8 @@ float scale_to(const Parameter& wanted, float value, double unscaled, float scal
 void warn_of_unused_flux(const ParameterSet& parameters, Diagnostics& diagnostics) {
   for (const char* name : {"power", "illuminance"}) {
     const Parameter* flux = parameters.peek(name);
-    if (flux && flux->used && flux->numbers.size() == 1 && !(flux->numbers[0] > 0))
+    if (!flux || !flux->used || flux->numbers.size() != 1 || flux->numbers[0] == -1) continue;
+    if (!(static_cast<float>(flux->numbers[0]) > 0.0f))
       diagnostics.warn(flux->where, fmt::format("\"{}\" is {} and so not used, expected a value "
                                                 "above 0; \"scale\" 0 turns a light off",
                                                 name, flux->numbers[0]));

@@ -66,7 +66,7 @@ float image_emission_scale(const ParameterSet& parameters, const RgbColorSpace& 
 float scale_to(const Parameter& wanted, float value, double unscaled, float scale);
 
 /// Warns of a "power" or "illuminance" that the light has read but not used, since it is not above
-/// 0.
+/// 0. -1 stands for none, as in pbrt-v4.
 void warn_of_unused_flux(const ParameterSet& parameters, Diagnostics& diagnostics);
 
 /// The image named by "filename". Throws SceneError if it has infinite, NaN or enormous values.

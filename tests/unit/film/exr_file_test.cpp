@@ -30,6 +30,20 @@ Picture some_picture() {
   return picture;
 }
 
+TEST(ReadPicture, SaysThatAFileIsNoPicture) {
+  const ScratchDirectory directory;
+  const std::string path = directory.file("notes.txt");
+  std::ofstream(path) << "no picture";
+  try {
+    read_picture(path);
+    ADD_FAILURE() << "was read";
+  } catch (const IoError& error) {
+    EXPECT_NE(std::string(error.what()).find("no picture in a format that the program knows"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(ExrFile, ComesBackBitForBit) {
   const ScratchDirectory directory;
   const Picture wanted = some_picture();

@@ -51,6 +51,12 @@ TEST(Compare, TellsWhetherColoursAreTheSame) {
       compare_pictures(reference, rgb({1, 1, std::nextafter(1.0f, 2.0f), 0, 0, 0}), {}).is_same);
 }
 
+TEST(Compare, TrimKeepsTheOnlyPixel) {
+  const Comparison c = compare_pictures(rgb({1, 1, 1}), rgb({2, 1, 1}), {});
+  EXPECT_GT(c.relmse, 0);
+  EXPECT_EQ(c.relmse_trim, c.relmse);
+}
+
 TEST(Compare, TrimDropsOneInAThousand) {
   std::vector<float> reference(3 * 3000, 1.0f), test = reference;
   // Three pixels of 3000 may be dropped: the fourth largest stays.

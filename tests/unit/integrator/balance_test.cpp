@@ -185,19 +185,44 @@ TEST(AllocateSamples, HasFewPathsAPass) {
   spread.light.assign(24, 1);
   double last = 0;
   for (const double most : {1.0, 2.0, 3.0}) {
-    const double mean = allocate_samples({0, 0, 24 * 4, 4}, 1, {spread, {}, {}}, most).paths.mean();
+    const double mean =
+        allocate_samples({0, 0, 24 * 4, 4}, 1, {spread, {}, {}}, {most}).paths.mean();
     EXPECT_LE(mean, most);
     EXPECT_GT(mean, last);
     last = mean;
   }
 }
 
-TEST(MaxMeanOfFilm, LimitsThePassesOfLargeFilms) {
-  EXPECT_EQ(max_mean_of_film(512 * 512), SampleMap::kMaxMean);
-  EXPECT_EQ(max_mean_of_film(1280 * 1000), SampleMap::kMaxMean);
-  EXPECT_DOUBLE_EQ(max_mean_of_film(1600 * 1000), 2);
-  EXPECT_EQ(max_mean_of_film(3840 * 2160), 1.5);
-  EXPECT_EQ(max_mean_of_film(1), SampleMap::kMaxMean);
+TEST(AllocateSamples, HasFewWalksOfBothKindsTogether) {
+  TileStatistics found;
+  for (int i = 0; i < 24; ++i) {
+    const double variance = i < 4 ? 1 : 64;
+    for (SampleVariance::ByTile* of : {&found.paths, &found.chains}) {
+      of->variance.push_back(variance);
+      of->cost.push_back(2);
+    }
+    found.choice.variance.push_back(1e6);
+    found.choice.cost.push_back(0);
+  }
+  double last = 0;
+  for (const double most : {2.0, 4.0, 6.0}) {
+    const SampleAllocation shares = allocate_samples({0, 0, 24 * 4, 4}, 1, found, {8, most});
+    const double mean = shares.paths.mean() + shares.chains.mean();
+    EXPECT_LE(mean, most);
+    EXPECT_GT(mean, last);
+    last = mean;
+  }
+}
+
+TEST(MeanLimits, AreLowerInLargeFilms) {
+  for (const int64_t pixels : {1, 512 * 512, 1280 * 1000}) {
+    EXPECT_EQ(limits_of_film(pixels).paths, SampleMap::kMaxMean);
+    EXPECT_EQ(limits_of_film(pixels).walks, kInfinity);
+  }
+  EXPECT_DOUBLE_EQ(limits_of_film(1600 * 1000).paths, 2);
+  EXPECT_DOUBLE_EQ(limits_of_film(1600 * 1000).walks, 4);
+  EXPECT_EQ(limits_of_film(3840 * 2160).paths, 1.5);
+  EXPECT_EQ(limits_of_film(3840 * 2160).walks, 3);
 }
 
 // [A4]

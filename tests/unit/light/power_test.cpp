@@ -99,10 +99,14 @@ TEST_F(LightPower, WarnsOfFluxThatIsNotAboveZero) {
   EXPECT_NE(warnings("LightSource \"infinite\" \"float illuminance\" -2")
                 .find("\"illuminance\" is -2 and so not used"),
             std::string::npos);
-  EXPECT_EQ(warnings("LightSource \"point\" \"float power\" 3"), "");
+  EXPECT_NE(warnings("LightSource \"point\" \"float power\" 1e-60").find("not used"),
+            std::string::npos);
+  for (const char* value : {"3", "-1"})
+    EXPECT_EQ(warnings(std::string("LightSource \"point\" \"float power\" ") + value), "");
   Diagnostics found;
   area_lights_of("\"float power\" 0", rectangle(1, 2, 3), nullptr, ".", &found);
-  EXPECT_EQ(found.warnings().size(), 1u);
+  ASSERT_EQ(found.warnings().size(), 1u);
+  EXPECT_NE(found.warnings()[0].message.find("\"power\" is 0 and so not used"), std::string::npos);
 }
 
 TEST_F(LightPower, BlackImagesAreBlackWhateverTheirPower) {
