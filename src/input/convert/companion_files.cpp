@@ -36,6 +36,15 @@ std::string directory_of(const std::string& path) {
   return parent.empty() ? "." : parent;
 }
 
+/// True if the file has exactly these bytes.
+bool has_bytes(const std::string& path, const std::string& bytes) {
+  std::error_code error;
+  if (fs::file_size(path, error) != bytes.size() || error) return false;
+  std::ifstream file(path, std::ios::binary);
+  std::string found(bytes.size(), '\0');
+  return file.read(found.data(), static_cast<std::streamsize>(found.size())) && found == bytes;
+}
+
 }  // namespace
 
 CompanionFiles::CompanionFiles(const SceneDescription& scene, const std::string& scene_file)
@@ -43,27 +52,27 @@ CompanionFiles::CompanionFiles(const SceneDescription& scene, const std::string&
       directory_(directory_of(scene_file)),
       stem_(fs::path(scene_file).stem().string()) {}
 
-std::string CompanionFiles::new_name(const std::string& suffix) {
-  return fmt::format("{}-{}{}", stem_, ++count_, suffix);
-}
-
-void CompanionFiles::write(const std::string& name, const std::string& bytes) const {
-  write_bytes((fs::path(directory_) / name).string(), bytes);
+std::string CompanionFiles::add(const std::string& bytes, const std::string& suffix) {
+  ++count_;
+  for (;;) {
+    const std::string name = fmt::format("{}-{}{}", stem_, ++last_number_, suffix);
+    const std::string path = (fs::path(directory_) / name).string();
+    if (!fs::exists(path))
+      write_bytes(path, bytes);
+    else if (!has_bytes(path, bytes))
+      continue;
+    return name;
+  }
 }
 
 std::string CompanionFiles::add_mesh(const MeshData& mesh) {
-  const std::string name = new_name(".ply");
-  write(name, ply_bytes(mesh));
-  return name;
+  return add(ply_bytes(mesh), ".ply");
 }
 
 std::string CompanionFiles::name_of(const std::string& old_name) {
   if (const std::shared_ptr<const std::string> bytes = files_.in_memory(old_name)) {
     std::string& name = written_[old_name];
-    if (name.empty()) {
-      name = new_name(suffix_of(*bytes));
-      write(name, *bytes);
-    }
+    if (name.empty()) name = add(*bytes, suffix_of(*bytes));
     return name;
   }
   if (fs::path(old_name).is_absolute()) return old_name;

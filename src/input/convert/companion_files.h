@@ -1,5 +1,6 @@
 // The files beside a converted scene: it writes meshes and images in memory there, and finds the
-// names by which the new scene reads the files of the old one. It must not know directives.
+// names by which the new scene reads the files of the old one. No other file is replaced: names
+// that are taken by other bytes are passed over. It must not know directives.
 #pragma once
 
 #include <map>
@@ -21,17 +22,17 @@ class CompanionFiles {
   /// written. Throws IoError.
   std::string name_of(const std::string& old_name);
 
-  /// Number of files that were written.
+  /// Number of files of the converted scene.
   int count() const { return count_; }
 
  private:
-  std::string new_name(const std::string& suffix);
-  void write(const std::string& name, const std::string& bytes) const;
+  /// Writes a file unless it is there already, and returns its name.
+  std::string add(const std::string& bytes, const std::string& suffix);
 
   SceneFiles& files_;
   std::string directory_;  ///< directory of the converted scene
   std::string stem_;       ///< beginning of all names
-  int count_ = 0;
+  int count_ = 0, last_number_ = 0;
   std::map<std::string, std::string> written_;  ///< names of files in memory
 };
 

@@ -121,10 +121,11 @@ MeshData rectangle_mesh() {
 }
 
 MeshData cube_mesh() {
-  // Each face by its outward normal n and the direction of u; that of v is n x u.
-  constexpr float kFaces[6][2][3] = {{{0, 0, 1}, {1, 0, 0}},  {{0, 0, -1}, {-1, 0, 0}},
-                                     {{1, 0, 0}, {0, 0, -1}}, {{-1, 0, 0}, {0, 0, 1}},
-                                     {{0, 1, 0}, {1, 0, 0}},  {{0, -1, 0}, {1, 0, 0}}};
+  // Each face by its outward normal n and Mitsuba's direction of u; that of v is u x n, and pbrt-v4
+  // counts v the other way.
+  constexpr float kFaces[6][2][3] = {{{0, 0, 1}, {0, 1, 0}},  {{0, 0, -1}, {0, -1, 0}},
+                                     {{1, 0, 0}, {0, 1, 0}},  {{-1, 0, 0}, {0, 1, 0}},
+                                     {{0, 1, 0}, {-1, 0, 0}}, {{0, -1, 0}, {0, 0, 1}}};
   constexpr float kCorners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   MeshData mesh;
   for (const auto& face : kFaces) {
@@ -133,7 +134,7 @@ MeshData cube_mesh() {
     for (const auto& corner : kCorners) {
       mesh.quads.push_back(static_cast<uint32_t>(mesh.positions.size()));
       mesh.positions.push_back(n + u * corner[0] + v * corner[1]);
-      mesh.uvs.emplace_back(0.5f + 0.5f * corner[0], 0.5f - 0.5f * corner[1]);
+      mesh.uvs.emplace_back(0.5f + 0.5f * corner[0], 0.5f + 0.5f * corner[1]);
     }
   }
   return mesh;

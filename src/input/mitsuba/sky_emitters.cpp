@@ -134,7 +134,7 @@ void set_sky(PluginProperties& p, const Daylight& d, double scale, double defaul
   for (int i = 0; i < 3; ++i)
     if (!(albedo[i] >= 0 && albedo[i] <= 1))
       throw SceneError(p.where(), "\"albedo\" is out of range, expected 0 to 1");
-  const std::string name = p.context().unique_name(p.object()) + ".pfm";
+  const std::string name = p.context().unique_name(p.object()) + "#/sky.pfm";
   p.context().scene.files->add_in_memory(
       name, pfm_image(sky_pixels(d, albedo, p.boolean("extend", false)), kWidth, kHeight));
   light.type = "infinite";

@@ -20,6 +20,9 @@ double largest(const Color& c) {
 Color divided(const Color& c, double by) {
   return by > 0 ? Color{c[0] / by, c[1] / by, c[2] / by} : Color{1, 1, 1};
 }
+bool is_grey(const Color& c) {
+  return c[0] == c[1] && c[1] == c[2];
+}
 double unit(double value) {
   return std::clamp(value, 0.0, 1.0);
 }
@@ -92,6 +95,19 @@ class Converter {
   bool is_glass_;
 };
 
+/// Adds scale, offset and wrapping of an image under the names of normal maps and lights, whose
+/// wrapping is `usual` if none is given.
+void add_placement(const MtlMap& map, const std::string& prefix, const char* usual,
+                   ParameterList* list) {
+  if (map.u_scale != 1 || map.v_scale != 1 || map.u_offset != 0 || map.v_offset != 0)
+    list->add_numbers("float", prefix + "uvtransform",
+                      {map.u_scale, 0, map.u_offset, 0, map.v_scale, map.v_offset});
+  const char* const wrap = map.clamps ? "clamp" : "repeat";
+  if (wrap == std::string_view(usual)) return;
+  list->add_string(prefix + "uwrap", wrap);
+  list->add_string(prefix + "vwrap", wrap);
+}
+
 std::string Converter::texture(const char* keyword, const MtlMap& map, const char* value_type,
                                double scale) {
   ParameterList list(map.where);
@@ -129,8 +145,7 @@ void Converter::add_base() {
     list_.add_float("base_metalness", 1);
     return;
   }
-  const bool is_grey = kd[0] == kd[1] && kd[1] == kd[2];
-  if (mtl_.map("map_Kd") && !is_grey)
+  if (mtl_.map("map_Kd") && !is_grey(kd))
     diagnostics_.warn(mtl_.where,
                       "Kd is a colour and map_Kd an image: the image is multiplied by "
                       "the largest component of Kd only");
@@ -153,11 +168,19 @@ void Converter::add_specular() {
                            mtl_.map("map_Pm") || is_glass_ || is_mirror();
   const Color ks = unit(mtl_.color("Ks").value_or(Color{0, 0, 0}));
   const bool has_highlight = illum_ >= 2 && (largest(ks) > 0 || mtl_.map("map_Ks"));
-  list_.add_float("specular_ior", std::clamp(number("Ni", 1.5), 1.0, 10.0));
+  // Ni is for refraction. Files with highlights and no glass often have a Ni of 1, of which nothing
+  // is reflected.
+  const double ior = number("Ni", 1.5);
+  const bool is_for_highlight = has_highlight && !is_physical && ior <= 1;
+  list_.add_float("specular_ior", is_for_highlight ? 1.5 : std::clamp(ior, 1.0, 10.0));
   add_roughness();
   if (is_physical) return;
   list_.add_float("specular_weight", has_highlight ? (largest(ks) > 0 ? largest(ks) : 1) : 0);
   if (!has_highlight) return;
+  if (mtl_.map("map_Ks") && !is_grey(ks))
+    diagnostics_.warn(mtl_.where,
+                      "Ks is a colour and map_Ks an image: the image is multiplied by "
+                      "the largest component of Ks only");
   if (!add_map("specular_color", "map_Ks", "spectrum"))
     list_.add_color("specular_color", divided(ks, largest(ks)));
 }
@@ -185,6 +208,7 @@ void Converter::add_layers() {
 void Converter::add_relief() {
   if (const MtlMap* normals = mtl_.map("norm")) {
     list_.add_string("normalmap", normals->file);
+    add_placement(*normals, "normalmap.", "repeat", &list_);
     if (mtl_.map("bump"))
       diagnostics_.warn(mtl_.where, "bump is ignored, since the material has a norm, too");
     return;
@@ -198,6 +222,8 @@ std::optional<DirectiveDescription> Converter::area_light() const {
   ParameterList list(mtl_.where);
   if (const MtlMap* map = mtl_.map("map_Ke")) {
     list.add_string("filename", map->file);
+    add_placement(*map, "", "clamp", &list);
+    list.add_color("factor", divided(ke, largest(ke)));
     list.add_float("scale", largest(ke));
   } else {
     list.add_color("L", ke);

@@ -15,6 +15,9 @@ namespace {
 
 constexpr double kClay = 0.6;  ///< reflectance of faces without a material
 
+/// Undefined materials for which a name of the library is suggested.
+constexpr int kMaxSuggestions = 20;
+
 class ObjScene {
  public:
   ObjScene(const std::string& path, const ImportOptions& options, Diagnostics& diagnostics,
@@ -52,6 +55,7 @@ class ObjScene {
   SceneDescription scene_;
   std::map<std::string, MtlMaterial> library_;  ///< all materials of all MTL files
   std::map<std::string, OfShapes> used_;        ///< by their names in the file
+  int undefined_ = 0;                           ///< materials that no MTL file has
 };
 
 ObjScene::OfShapes ObjScene::convert(const MtlMaterial& mtl) {
@@ -83,8 +87,10 @@ const ObjScene::OfShapes& ObjScene::material_of(const ObjPart& part) {
   if (known != library_.end())
     return used_.emplace(part.material, convert(known->second)).first->second;
   if (!part.material.empty()) {
+    // Of a wrong library nothing need be suggested, and the search takes long.
     std::vector<std::string> names;
-    for (const auto& entry : library_) names.push_back(entry.first);
+    if (++undefined_ <= kMaxSuggestions)
+      for (const auto& entry : library_) names.push_back(entry.first);
     diagnostics_.warn(part.where, "material \"" + part.material + "\" is not defined" +
                                       did_you_mean(part.material, names) + "; its faces are grey");
   }

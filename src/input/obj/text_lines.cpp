@@ -9,10 +9,23 @@ bool is_obj_blank(char c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/// The line without its comment: a "#" inside of a word, as in a file's name, begins none.
+/// True if the line gives names, of which some have a "#": newmtl Material #2, map_Kd wood #1.png.
+bool gives_names(std::string_view line) {
+  const std::string_view word = take_word(&line);
+  constexpr std::string_view kOthers[] = {"newmtl", "usemtl", "mtllib", "o",    "g",
+                                          "norm",   "bump",   "disp",   "refl", "decal"};
+  return word.starts_with("map_") || std::ranges::find(kOthers, word) != std::end(kOthers);
+}
+
+/// The line without its comment. A "#" inside of a word begins none, nor does one before a word of
+/// a name.
 std::string_view without_comment(std::string_view line) {
-  for (size_t i = 0; i < line.size(); ++i)
-    if (line[i] == '#' && (i == 0 || is_obj_blank(line[i - 1]))) return line.substr(0, i);
+  const bool in_names = gives_names(line);
+  for (size_t i = 0; i < line.size(); ++i) {
+    if (line[i] != '#' || (i > 0 && !is_obj_blank(line[i - 1]))) continue;
+    const bool is_of_name = in_names && i + 1 < line.size() && !is_obj_blank(line[i + 1]);
+    if (!is_of_name) return line.substr(0, i);
+  }
   return line;
 }
 

@@ -1,5 +1,5 @@
 // The lines and words of OBJ and MTL files: "\" joins a line with the next, "#" begins a comment.
-// It must not know keywords.
+// Of keywords it must only know those that give names.
 #pragma once
 
 #include <string>

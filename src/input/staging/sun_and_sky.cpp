@@ -22,7 +22,8 @@ constexpr int kSkySize = 256;       ///< side of the sky's image, pixels
 /// cd/m^2 of a radiance of 1 W / (m^2 sr nm) at all wavelengths.
 constexpr float kLuminancePerRadiance = 683 * kCieYIntegral;
 constexpr float kGround = 0.2f;  ///< reflectance
-constexpr const char* kSkyFile = "sky.pfm";
+/// In memory; no file of a scene is called that.
+constexpr const char* kSkyFile = "--sun#/sky.pfm";
 
 void remove_lights(SceneDescription* scene, std::initializer_list<const char*> types) {
   std::erase_if(scene->lights, [&](const LightDescription& light) {

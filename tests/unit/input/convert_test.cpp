@@ -193,6 +193,26 @@ TEST(Convert, WritesMeshesAndImagesBesideTheScene) {
   EXPECT_EQ(read_back.face_indices, mesh.face_indices);
 }
 
+TEST(Convert, ReplacesNoOtherFile) {
+  SceneDescription scene = testing::parse("WorldBegin\nShape \"sphere\"\n");
+  scene.files->add_in_memory("m.glb#/images/0", "\x89PNG and so on");
+  ParameterList image{SourceLocation()};
+  image.add_string("filename", "m.glb#/images/0");
+  TextureDescription& texture = scene.textures.emplace_back();
+  static_cast<DirectiveDescription&>(texture) = std::move(image).directive("imagemap");
+  texture.name = "a";
+  texture.value_type = "spectrum";
+  const TemporaryDirectory folder;
+  folder.write("out-1.png", "somebody's picture");
+  for (int again = 0; again < 2; ++again) {
+    write_pbrt(scene, folder.path("out.pbrt"));
+    EXPECT_EQ(read_file_bytes(folder.path("out-1.png")), "somebody's picture");
+    EXPECT_EQ(read_file_bytes(folder.path("out-2.png")), "\x89PNG and so on");
+    EXPECT_NE(read_file_bytes(folder.path("out.pbrt")).find("\"out-2.png\""), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder.path("out-3.png")));
+  }
+}
+
 TEST(Convert, WritesTheFacesOfACube) {
   SceneDescription scene = testing::parse("WorldBegin\nShape \"sphere\"\n");
   std::vector<std::string> names;

@@ -106,7 +106,7 @@ const Samples kEmitters = {
     {"emitter", "directional", {"light 'distant'", "rgb 'L' = 1 1 1"}},
     {"emitter", "constant", {"light 'infinite'", "rgb 'L' = 1 1 1"}},
     {"emitter", "envmap", {"light 'infinite'", "'filename' = 'sky.exr'"}, file("sky.exr")},
-    {"emitter", "sky", {"light 'infinite'", "'filename' = 'it.pfm'"}},
+    {"emitter", "sky", {"light 'infinite'", "'filename' = 'it#/sky.pfm'"}},
     {"emitter", "sun", {"light 'distant'", "float 'angle' = 0.5"}},
     {"emitter", "sunsky", {"light 'distant'", "light 'infinite'"}},
 };

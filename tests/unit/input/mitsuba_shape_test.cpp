@@ -94,6 +94,35 @@ TEST(MitsubaShape, CubeFacesOutwards) {
   EXPECT_NEAR(area, 24, 1e-12);
 }
 
+// Corners and their uv in Mitsuba's src/shapes/cube.cpp.
+TEST(MitsubaShape, ACubeHasMitsubasTextureCoordinates) {
+  MitsubaScene scene;
+  const ShapeDescription s = scene.read(shape("cube")).shapes[0];
+  const Numbers uv = parameter(s.parameters, "uv").numbers;
+  const auto expect_uv = [&](const Vec3d& normal, const Vec3d& p, double u, double v) {
+    const Numbers indices = parameter(s.parameters, "indices").numbers;
+    for (size_t t = 0; t < 12; ++t)
+      for (size_t k = 0; k < 3; ++k) {
+        const auto i = static_cast<size_t>(indices[3 * t + k]);
+        if (face_normal(s, t).dot(normal) < 0.9 || !(point_at(s, i) == p)) continue;
+        EXPECT_EQ(uv[2 * i], u) << p.x << p.y << p.z;
+        EXPECT_EQ(uv[2 * i + 1], 1 - v) << p.x << p.y << p.z;
+      }
+  };
+  expect_uv({0, -1, 0}, {1, -1, -1}, 0, 1);
+  expect_uv({0, -1, 0}, {-1, -1, 1}, 1, 0);
+  expect_uv({0, 1, 0}, {1, 1, -1}, 0, 1);
+  expect_uv({0, 1, 0}, {-1, 1, 1}, 1, 0);
+  expect_uv({1, 0, 0}, {1, -1, -1}, 0, 1);
+  expect_uv({1, 0, 0}, {1, 1, 1}, 1, 0);
+  expect_uv({0, 0, 1}, {1, -1, 1}, 0, 1);
+  expect_uv({0, 0, 1}, {1, 1, 1}, 1, 1);
+  expect_uv({-1, 0, 0}, {-1, -1, 1}, 0, 1);
+  expect_uv({-1, 0, 0}, {-1, 1, -1}, 1, 0);
+  expect_uv({0, 0, -1}, {1, 1, -1}, 0, 1);
+  expect_uv({0, 0, -1}, {-1, -1, -1}, 1, 0);
+}
+
 TEST(MitsubaShape, SerializedMeshesOfBothVersionsAndPrecisions) {
   for (const int version : {3, 4})
     for (const bool is_double : {false, true}) {

@@ -137,6 +137,29 @@ TEST_F(MtlTest, ImagesHaveTheirOptions) {
   EXPECT_EQ(alpha.parameters.get_string("filename", ""), "leaf.png");
 }
 
+TEST_F(MtlTest, NormalMapsAndEmissionHaveTheOptionsOfTheirImages) {
+  const SceneDescription scene =
+      read("norm -s 4 2 1 -o .5 0 0 -clamp on n.png\nKe .1 .4 .2\nmap_Ke -s 2 2 1 e.png\n");
+  const ParameterSet& surface = scene.materials.at(0).parameters;
+  EXPECT_EQ(surface.get_floats("normalmap.uvtransform"), (std::vector<float>{4, 0, 0.5f, 0, 2, 0}));
+  EXPECT_EQ(surface.get_string("normalmap.uwrap", ""), "clamp");
+  const ParameterSet& light = scene.shapes.at(0).area_light->parameters;
+  EXPECT_EQ(light.get_floats("uvtransform"), (std::vector<float>{2, 0, 0, 0, 2, 0}));
+  EXPECT_EQ(light.get_string("vwrap", ""), "repeat");
+  EXPECT_EQ(light.get_float("scale", 0), 0.4f);
+  EXPECT_EQ(light.find("factor")->numbers, (std::vector<double>{0.25, 1, 0.5}));
+}
+
+TEST_F(MtlTest, AnIndexOfOneLeavesTheHighlight) {
+  EXPECT_EQ(
+      read("Ks .5 .5 .5\nNi 1\nillum 2\n").materials.at(0).parameters.get_float("specular_ior", 0),
+      1.5f);
+  EXPECT_EQ(read("Ks .5 .5 .5\nNi 1.3\nillum 2\n")
+                .materials.at(0)
+                .parameters.get_float("specular_ior", 0),
+            1.3f);
+}
+
 TEST_F(MtlTest, ImagesOfNumbersAreLinear) {
   const SceneDescription scene =
       read("map_Kd a.jpg\nmap_d b.jpg\nmap_Pr c.png\nmap_Pm d.tga\nmap_bump e.jpg\n");

@@ -122,6 +122,15 @@ TEST_F(ObjFileTest, LinesMayContinueAndNamesMayHoldBlanks) {
   EXPECT_EQ(file.parts.at(0).where.line, 7);
 }
 
+TEST_F(ObjFileTest, NamesMayHoldHashes) {
+  const ObjFile file =
+      read(std::string(kObjSquare) +
+           "usemtl Material #1\nf 1 2 3 #a face\nusemtl red # not blue\nf 2 3 4\n");
+  ASSERT_EQ(file.parts.size(), 2u);
+  EXPECT_EQ(file.parts[0].material, "Material #1");
+  EXPECT_EQ(file.parts[1].material, "red");
+}
+
 TEST_F(ObjFileTest, JoinedMeshHasAllParts) {
   const MeshData mesh = joined_mesh(
       read(std::string(kObjSquare) + "vt .5 .5\nvn 0 0 1\nf 1 2 3\nf 1/1/1 2/1/1 3/1/1\n"));

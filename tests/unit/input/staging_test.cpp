@@ -215,7 +215,7 @@ TEST(Sun, ReplacesLightsAtInfinityAndKeepsLamps) {
   EXPECT_NEAR(to_sun.x, std::sqrt(0.75), 1e-6);
   EXPECT_NEAR(to_sun.y, 0.5, 1e-6);
   EXPECT_NEAR(to_sun.z, 0, 1e-6);
-  EXPECT_TRUE(scene.files->in_memory("sky.pfm"));
+  EXPECT_TRUE(scene.files->in_memory("--sun#/sky.pfm"));
   // A white surface that faces the sun has a value near 1, by sun and sky.
   const std::vector<double> l = scene.lights[2].parameters.find("L")->numbers;
   const double illuminance =
