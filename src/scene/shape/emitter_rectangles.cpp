@@ -18,6 +18,10 @@ bool is_rectangle(const MeshData& mesh, const uint32_t v[4]) {
   const auto& t = mesh.uvs;
   const Vec2f bend = t[v[0]] - t[v[1]] + t[v[2]] - t[v[3]];
   if (std::abs(bend.x) + std::abs(bend.y) > kTolerance) return false;
+  // A patch takes its edges for the directions of u and v.
+  const Vec2f along_a = t[v[1]] - t[v[0]], along_b = t[v[3]] - t[v[0]];
+  const auto slant = [](const Vec2f& d) { return std::min(std::abs(d.x), std::abs(d.y)); };
+  if (slant(along_a) + slant(along_b) > kTolerance) return false;
   if (!mesh.normals.empty())
     for (int i = 1; i < 4; ++i)
       if (length(mesh.normals[v[i]] - mesh.normals[v[0]]) > 1e-4f) return false;
