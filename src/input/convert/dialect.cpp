@@ -8,6 +8,7 @@ namespace {
 
 constexpr DialectName kDialects[] = {
     {"Material", "principled"},
+    {"Material", "coatedconductor", "interface.thickness"},
     {"Material", "", "normalmap.scale"},
     {"Material", "", "normalmap.handedness"},
     {"Material", "", "normalmap.uwrap"},

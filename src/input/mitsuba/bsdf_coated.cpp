@@ -102,7 +102,7 @@ Surface write_coat(PluginProperties& p, bool is_rough) {
     return surface;
   }
   add_float(m.parameters, prefix + "eta", eta);
-  add_float(m.parameters, prefix + "thickness", thickness);
+  add_float(m.parameters, "thickness", thickness);
   add_integer(m.parameters, "maxdepth", kMaxCoatDepth);
   if (is_rough)
     add_roughness(p, m.parameters, prefix);

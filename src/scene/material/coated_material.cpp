@@ -11,13 +11,19 @@
 namespace nephroid {
 namespace {
 
+/// pbrt-v4 reads "thickness" whatever the boundary's prefix.
+std::string thickness_name(const ParameterSet& parameters, const std::string& prefix) {
+  return parameters.find("thickness") ? "thickness" : prefix + "thickness";
+}
+
 /// A coat without its base. Parameter names of the boundary start with `prefix`.
 class CoatInput {
  public:
   CoatInput(const MaterialDescription& d, const MaterialContext& c, const std::string& prefix)
       : eta_(d.parameters, prefix + "eta", c.files),
         roughness_(c.textures, d.parameters, prefix, d.parameters.get_bool("remaproughness", true)),
-        thickness_(c.textures.float_texture(d.parameters, prefix + "thickness", 0.01f)),
+        thickness_(
+            c.textures.float_texture(d.parameters, thickness_name(d.parameters, prefix), 0.01f)),
         albedo_(read_spectrum(c.textures, d.parameters, "albedo", SpectrumKind::kAlbedo, 0.0f)),
         g_(c.textures.float_texture(d.parameters, "g", 0.0f)),
         max_depth_(d.parameters.get_int("maxdepth", 10)),

@@ -187,7 +187,7 @@ TEST(MitsubaBsdf, CoatsCoverConductorsAndDiffuseSurfaces) {
   EXPECT_EQ(metal.type, "coatedconductor");
   EXPECT_EQ(text(metal.parameters, "conductor.eta"), "metal-Ag-eta");
   EXPECT_EQ(number(metal.parameters, "conductor.roughness"), 0.2);
-  EXPECT_EQ(number(metal.parameters, "interface.thickness"), 0.5);
+  EXPECT_EQ(number(metal.parameters, "thickness"), 0.5);
   const MaterialDescription paint = material_of(bsdf(
       "roughcoating",
       value("float", "alpha", "0.1") + bsdf("diffuse", value("rgb", "reflectance", "1, 0, 0"))));

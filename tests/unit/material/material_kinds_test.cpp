@@ -117,6 +117,24 @@ TEST(CoatedMaterials, ClosedFormAndWalkAgreeInTheMean) {
   EXPECT_NEAR(sums[0], sums[1], 5.0 * std::sqrt(squares[0] + squares[1]));
 }
 
+TEST(CoatedMaterials, AConductorsCoatIsAsThickByEitherName) {
+  const auto albedo = [](const char* name) {
+    const Made made(
+        {material("coatedconductor",
+                  {numbers("float", name, {3}), numbers("float", "interface.roughness", {0.3}),
+                   numbers("float", "conductor.roughness", {0.3})})});
+    EXPECT_TRUE(made.diagnostics.warnings().empty());
+    SampledWavelengths lambda = SampledWavelengths::sample_visible(0.3f);
+    BsdfArena arena;
+    const Bsdf* bsdf = made.materials[0]->make_bsdf(flat_point(), lambda, kSpecularAlpha, arena);
+    const Vec3f w = normalize(Vec3f(0.2f, 0.1f, 1));
+    return bsdf->eval(w, w, TransportMode::kRadiance, EventClass::kGlossy, ClassMask::kAll).f[0];
+  };
+  const float thick = albedo("thickness");
+  EXPECT_EQ(albedo("interface.thickness"), thick);
+  EXPECT_NE(albedo("g"), thick);  // 0.01 mean free paths
+}
+
 TEST(CoatedMaterials, FitTheArena) {
   const Made made({material("coatedconductor", {numbers("float", "interface.roughness", {0.2}),
                                                 numbers("spectrum", "albedo", {200, .5, 900, .5}),
