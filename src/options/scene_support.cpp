@@ -49,6 +49,8 @@ constexpr const char* kPbrtTail = R"(
 - `maxdepth` counts the scattering events of the whole path, camera and light side together, in every
   integrator, and is 100 where a scene does not say (pbrt-v4: 5).
 - Filtered image lookups (trilinear, EWA) are bilinear on the finest level.
+- Bump mapping takes differences over half a pixel of the image, or half of the finest octave of noise,
+  and over 0.0005 in uv at most (pbrt-v4: over half a pixel of the picture).
 - `radius` of an sppm integrator is in world units and is ignored: the first radius comes from the
   pixel's footprint.
 - Mirroring a sphere, disk, cylinder or curve mirrors its outside, as it does for meshes and instances.

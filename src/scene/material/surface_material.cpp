@@ -1,28 +1,46 @@
 // Bump and normal mapping; see surface_material.h.
 #include "scene/material/surface_material.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace nephroid {
 namespace {
 
-/// Finite difference step in uv if the size of a pixel is unknown.
-constexpr float kBumpStep = 0.0005f;
+/// The largest finite difference step in uv, pbrt-v4's where the size of a pixel is unknown, and
+/// the smallest one over the rounding of uv.
+constexpr float kBumpStep = 0.0005f, kMinSteps = 4;
 
 struct Tangents {
   Vec3f dpdu, dpdv;
 };
 
+/// A step from `u` over half of the finest detail along dp, as long as rounding leaves it.
+float bump_step(float u, const Vec3f& dp, const TextureDetail& detail) {
+  const float finest = std::max(detail.per_uv, detail.per_length * length(dp));
+  const float smallest = kMinSteps * std::numeric_limits<float>::epsilon() *
+                         std::max(std::abs(u), std::numeric_limits<float>::min());
+  const float step =
+      std::max(finest > 0 ? std::min(kBumpStep, 0.5f / finest) : kBumpStep, smallest);
+  return (u + step) - u;
+}
+
 Tangents bumped(const SurfaceInteraction& s, const FloatTexture& displacement) {
   const TextureContext here(s);
   const float d = displacement.eval(here);
-  const auto tilted = [&](const Vec3f& dp, const Vec3f& dn, const Vec2f& step) {
+  const TextureDetail detail = displacement.detail();
+  const float du = bump_step(here.uv.x, s.shading_dpdu, detail);
+  const float dv = bump_step(here.uv.y, s.shading_dpdv, detail);
+  const auto tilted = [&](const Vec3f& dp, const Vec3f& dn, float step, const Vec2f& in_uv) {
     TextureContext moved = here;
-    moved.p = here.p + dp * kBumpStep;
-    moved.uv = here.uv + step;
-    const float slope = (displacement.eval(moved) - d) / kBumpStep;
+    moved.p = here.p + dp * step;
+    moved.uv = here.uv + in_uv;
+    const float slope = (displacement.eval(moved) - d) / step;
     return dp + s.shading.z * slope + dn * d;
   };
-  return {tilted(s.shading_dpdu, s.dndu, Vec2f(kBumpStep, 0)),
-          tilted(s.shading_dpdv, s.dndv, Vec2f(0, kBumpStep))};
+  return {tilted(s.shading_dpdu, s.dndu, du, Vec2f(du, 0)),
+          tilted(s.shading_dpdv, s.dndv, dv, Vec2f(0, dv))};
 }
 
 Tangents normal_mapped(const SurfaceInteraction& s, const NormalMap& map) {

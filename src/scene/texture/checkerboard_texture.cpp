@@ -48,6 +48,7 @@ class CheckerboardFloatTexture final : public FloatTexture {
   float eval(const TextureContext& context) const override {
     return (board_.is_first(context) ? first_ : second_)->eval(context);
   }
+  TextureDetail detail() const override { return first_->detail().and_also(second_->detail()); }
 
  private:
   Board board_;

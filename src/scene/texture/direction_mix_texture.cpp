@@ -38,6 +38,7 @@ class DirectionMixFloatTexture final : public FloatTexture {
     if (w == 1.0f) return facing_->eval(context);
     return lerp(w, across_->eval(context), facing_->eval(context));
   }
+  TextureDetail detail() const override { return facing_->detail().and_also(across_->detail()); }
 
  private:
   FacingWeight weight_;

@@ -38,6 +38,7 @@ class DotsFloatTexture final : public FloatTexture {
   float eval(const TextureContext& context) const override {
     return (is_in_dot(mapping_.map(context)) ? dots_ : rest_)->eval(context);
   }
+  TextureDetail detail() const override { return dots_->detail().and_also(rest_->detail()); }
 
  private:
   TextureMapping2D mapping_;

@@ -59,6 +59,11 @@ class ImageLookup {
     if (times_vertex_color_) c = product(c, context.vertex_rgb());
     return {std::max(0.0f, c.r), std::max(0.0f, c.g), std::max(0.0f, c.b)};
   }
+  TextureDetail detail() const {
+    return mapping_.detail(
+        Vec2f(static_cast<float>(image_->width()), static_cast<float>(image_->height())) *
+        placement_.largest_scale());
+  }
   const RgbColorSpace& color_space() const { return image_->color_space(); }
   ImageLookup times(float factor) const {
     ImageLookup copy = *this;
@@ -120,6 +125,7 @@ class ImageFloatTexture final : public FloatTexture {
  public:
   explicit ImageFloatTexture(ImageLookup lookup) : lookup_(std::move(lookup)) {}
   float eval(const TextureContext& context) const override { return lookup_.number(context); }
+  TextureDetail detail() const override { return lookup_.detail(); }
   FloatTexturePtr with_values_times(float factor) const override {
     return std::make_shared<ImageFloatTexture>(lookup_.times(factor));
   }

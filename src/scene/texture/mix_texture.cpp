@@ -16,6 +16,9 @@ class MixedFloatTexture final : public FloatTexture {
     if (t == 1.0f) return second_->eval(context);
     return lerp(t, first_->eval(context), second_->eval(context));
   }
+  TextureDetail detail() const override {
+    return first_->detail().and_also(second_->detail()).and_also(amount_->detail());
+  }
 
  private:
   FloatTexturePtr first_, second_, amount_;

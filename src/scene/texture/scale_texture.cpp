@@ -15,6 +15,7 @@ class ScaledFloatTexture final : public FloatTexture {
     const float s = scale_->eval(context);
     return s == 0.0f ? 0.0f : s * texture_->eval(context);
   }
+  TextureDetail detail() const override { return texture_->detail().and_also(scale_->detail()); }
 
  private:
   FloatTexturePtr texture_, scale_;

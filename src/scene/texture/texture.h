@@ -44,10 +44,21 @@ struct TextureContext {
   Rgb vertex_rgb() const { return {vertex_channel(0), vertex_channel(1), vertex_channel(2)}; }
 };
 
+/// How fine a texture is: its details per unit of uv, and per unit of world space where it depends
+/// on the place. 0 if it does not depend on that, or has no scale of its own.
+struct TextureDetail {
+  float per_uv = 0, per_length = 0;
+  TextureDetail and_also(const TextureDetail& other) const {
+    return {std::max(per_uv, other.per_uv), std::max(per_length, other.per_length)};
+  }
+};
+
 class FloatTexture {
  public:
   virtual ~FloatTexture() = default;
   virtual float eval(const TextureContext& context) const = 0;
+  /// Bump mapping takes differences over half of its finest detail.
+  virtual TextureDetail detail() const { return {}; }
   /// The value, if it is the same everywhere.
   virtual std::optional<float> constant() const { return std::nullopt; }
   /// The texture with its stored values multiplied before any other operation. Null for textures

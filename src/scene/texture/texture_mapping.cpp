@@ -10,6 +10,12 @@ Transform world_to_texture(const TextureDescription& description) {
   return Transform(description.transform.start).inverted();
 }
 
+/// The largest factor by which it stretches an axis.
+float largest_scale(const Transform& t) {
+  return std::max(
+      {length(t.vector({1, 0, 0})), length(t.vector({0, 1, 0})), length(t.vector({0, 0, 1}))});
+}
+
 }  // namespace
 
 TextureMapping2D::TextureMapping2D(const TextureDescription& description)
@@ -45,6 +51,18 @@ Vec2f TextureMapping2D::map(const TextureContext& context) const {
   if (kind_ == Kind::kCylindrical) return {(kPi + phi) * kInv2Pi, p.z};
   const float cosine = std::clamp(normalize(p).z, -1.0f, 1.0f);
   return {std::acos(cosine) * kInvPi, (phi < 0.0f ? phi + 2.0f * kPi : phi) * kInv2Pi};
+}
+
+TextureDetail TextureMapping2D::detail(const Vec2f& per_st) const {
+  if (kind_ == Kind::kUv)
+    return {std::max(std::abs(scale_.x) * per_st.x, std::abs(scale_.y) * per_st.y), 0};
+  if (kind_ != Kind::kPlanar) return {};
+  return {0, largest_scale(world_to_texture_) *
+                 std::max(length(axis_s_) * per_st.x, length(axis_t_) * per_st.y)};
+}
+
+TextureDetail TextureMapping3D::detail(float per_length) const {
+  return {0, largest_scale(world_to_texture_) * per_length};
 }
 
 TextureMapping3D::TextureMapping3D(const TextureDescription& description)

@@ -15,6 +15,9 @@ class TextureMapping2D {
   /// Throws SceneError for an unknown mapping.
   explicit TextureMapping2D(const TextureDescription& description);
   Vec2f map(const TextureContext& context) const;
+  /// The detail of a texture that has so many details per unit of s and of t. Spheres and cylinders
+  /// have none.
+  TextureDetail detail(const Vec2f& per_st) const;
 
  private:
   enum class Kind { kUv, kSpherical, kCylindrical, kPlanar };
@@ -29,6 +32,8 @@ class TextureMapping3D {
  public:
   explicit TextureMapping3D(const TextureDescription& description);
   Vec3f map(const TextureContext& context) const { return world_to_texture_.point(context.p); }
+  /// The detail of a texture that has so many details per unit of length.
+  TextureDetail detail(float per_length) const;
   /// Footprint of a lookup, in the same frame.
   NoiseFootprint footprint(const TextureContext& context) const {
     return {world_to_texture_.vector(context.dpdx), world_to_texture_.vector(context.dpdy)};

@@ -171,10 +171,11 @@ TEST(MixMaterials, ChooseByAmountAndNest) {
     EXPECT_NEAR(counts[m], p[m] * kCount, 5.0 * std::sqrt(kCount * p[m] * (1 - p[m])));
 }
 
-TEST(Bump, ARampTiltsTheNormalByItsSlope) {
+// `tiles` ramps side by side, each one unit of length wide.
+void expect_ramps_tilt(double tiles) {
   SceneDescription description;
   Diagnostics diagnostics;
-  // Two interpolated texels: between their centres at u = 1/4 and 3/4 the slope is 1/2.
+  // Two interpolated texels: between their centres at 1/4 and 3/4 the slope is 1/2.
   const auto file = std::filesystem::path(::testing::TempDir()) / "nephroid_bump_test.exr";
   const float texels[2] = {0.0f, 0.25f};
   const auto out = OIIO::ImageOutput::create(file.string());
@@ -185,24 +186,60 @@ TEST(Bump, ARampTiltsTheNormalByItsSlope) {
   ramp.name = "ramp";
   ramp.type = "imagemap";
   ramp.value_type = "float";
-  ramp.parameters.list = {strings("string", "filename", {file.string()})};
+  ramp.parameters.list = {strings("string", "filename", {file.string()}),
+                          numbers("float", "uscale", {tiles})};
   description.textures.push_back(ramp);
   description.materials = {material("diffuse", {strings("texture", "displacement", {"ramp"})})};
   const TextureLibrary textures(description, diagnostics);
   const auto made = make_materials(description, textures, {}, diagnostics);
   ASSERT_TRUE(made[0]->has_bump());
-  SurfaceInteraction point = flat_point();
+  const auto wide_point = [&] {
+    SurfaceInteraction wide = flat_point();
+    wide.uv.x = 0.3f / static_cast<float>(tiles);
+    wide.dpdu = wide.shading_dpdu = Vec3f(static_cast<float>(tiles), 0, 0);
+    return wide;
+  };
+  SurfaceInteraction point = wide_point();
   made[0]->bump(point);
   const Vec3f expected = normalize(Vec3f(-0.5f, 0.0f, 1.0f));
-  EXPECT_LT(length(point.shading.z - expected), 1e-3f);
+  EXPECT_LT(length(point.shading.z - expected), 1e-3f) << tiles;
   EXPECT_NEAR(dot(point.shading.x, point.shading.z), 0.0f, 1e-5f);
   // On a flipped surface the normal stays on the outside.
-  SurfaceInteraction flipped = flat_point();
+  SurfaceInteraction flipped = wide_point();
   flipped.ng = Vec3f(0, 0, -1);
   flipped.shading = Frame::from_z_and_tangent(Vec3f(0, 0, -1), flipped.dpdu);
   made[0]->bump(flipped);
   EXPECT_LT(flipped.shading.z.z, 0.0f);
   std::filesystem::remove(file);
+}
+
+TEST(Bump, ARampTiltsTheNormalByItsSlope) {
+  for (const double tiles : {1.0, 100.0, 2000.0}) expect_ramps_tilt(tiles);
+}
+
+// The same noise on planes of several sizes.
+TEST(Bump, NoiseDoesNotDependOnTheParametrisation) {
+  SceneDescription description;
+  Diagnostics diagnostics;
+  TextureDescription noise;
+  noise.name = "noise";
+  noise.type = "fbm";
+  noise.value_type = "float";
+  description.textures.push_back(noise);
+  description.materials = {material("diffuse", {strings("texture", "displacement", {"noise"})})};
+  const TextureLibrary textures(description, diagnostics);
+  const auto made = make_materials(description, textures, {}, diagnostics);
+  const auto normal = [&](float size) {
+    SurfaceInteraction point = flat_point();
+    point.uv = point.uv * (1 / size);
+    point.dpdu = point.shading_dpdu = Vec3f(size, 0, 0);
+    point.dpdv = point.shading_dpdv = Vec3f(0, size, 0);
+    made[0]->bump(point);
+    return point.shading.z;
+  };
+  const Vec3f fine = normal(1);
+  EXPECT_LT(fine.z, 0.999f);
+  for (const float size : {10.0f, 1000.0f}) EXPECT_LT(length(normal(size) - fine), 0.05f) << size;
 }
 
 }  // namespace
