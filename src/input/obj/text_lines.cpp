@@ -20,11 +20,10 @@ bool gives_names(std::string_view line) {
 /// The line without its comment. A "#" inside of a word begins none, nor does one before a word of
 /// a name.
 std::string_view without_comment(std::string_view line) {
-  const bool in_names = gives_names(line);
   for (size_t i = 0; i < line.size(); ++i) {
     if (line[i] != '#' || (i > 0 && !is_obj_blank(line[i - 1]))) continue;
-    const bool is_of_name = in_names && i + 1 < line.size() && !is_obj_blank(line[i + 1]);
-    if (!is_of_name) return line.substr(0, i);
+    const bool starts_word = i + 1 < line.size() && !is_obj_blank(line[i + 1]);
+    if (!(starts_word && gives_names(line))) return line.substr(0, i);
   }
   return line;
 }
