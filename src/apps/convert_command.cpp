@@ -15,14 +15,14 @@
 namespace nephroid {
 namespace {
 
-/// " and 3 files of meshes and images, vase-1 to vase-3" for vase.pbrt.
-std::string beside_it(const std::string& output, int files) {
-  if (files == 0) return "";
-  const std::string stem = std::filesystem::path(output).stem().string();
-  const std::string count = counted(static_cast<uint64_t>(files), "file");
-  if (files == 1) return fmt::format(" and {} of a mesh or image beside it, {}-1", count, stem);
-  return fmt::format(" and {} of meshes and images beside it, {}-1 to {}-{}", count, stem, stem,
-                     files);
+/// " and 3 files of meshes and images, vase-1.ply to vase-3.png" for vase.pbrt.
+std::string beside_it(const std::vector<std::string>& files) {
+  if (files.empty()) return "";
+  const std::string count = counted(files.size(), "file");
+  if (files.size() == 1)
+    return fmt::format(" and {} of a mesh or image beside it, {}", count, files[0]);
+  return fmt::format(" and {} of meshes and images beside it, {} to {}", count, files.front(),
+                     files.back());
 }
 
 }  // namespace
@@ -49,8 +49,8 @@ int run_convert(const ConvertCommand& command) {
           fmt::format("{}: cannot be kept as {}: {}", command.output, kept, error.message()));
     print_warning(fmt::format("{} is there already; it is kept as {}", command.output, kept));
   }
-  const int files = write_pbrt(scene, command.output);
-  fmt::print("wrote {}{}\n", command.output, beside_it(command.output, files));
+  const std::vector<std::string> files = write_pbrt(scene, command.output);
+  fmt::print("wrote {}{}\n", command.output, beside_it(files));
   return static_cast<int>(ExitStatus::kDone);
 }
 

@@ -43,7 +43,7 @@ struct Comparison {
   double rmse = 0;
   double relmse = 0;  ///< mean over pixels and channels of (x - r)^2 / (r^2 + 0.01)
   double relmse_trim =
-      0;               ///< the same without the worst 0.1 % of pixels (one of two or more at least)
+      0;  ///< the same without the worst 0.1 % of pixels (at least one, if there are two or more)
   MeanRatio mean;      ///< all pixels, no interval
   MeanRatio dim_mean;  ///< pixels whose reference is below 10 in every channel
   std::optional<Deviations>

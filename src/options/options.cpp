@@ -292,7 +292,8 @@ const OptionDescription kOptions[] = {
      "A scene: pbrt-v4, glTF, Mitsuba XML or OBJ; - for standard input.", false,
      [](CommandLine& l, const std::string& t) { l.convert.input = t; }},
     {"convert", "OUT.pbrt", "", "", "", "", "",
-     "The scene as text. Meshes and images are files beside it: OUT-1.ply, OUT-2.png ...", false,
+     "The scene as text. Meshes and images are files beside it, OUT-1.ply, OUT-2.png ...; numbers "
+     "that are taken are passed over.", false,
      set_converted},
     {"bench", "SUITE", "", "", "", "", "", "A suite (docs/bench.md has the format).", false,
      [](CommandLine& l, const std::string& t) { l.bench.suite = t; }},

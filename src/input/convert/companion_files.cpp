@@ -53,15 +53,15 @@ CompanionFiles::CompanionFiles(const SceneDescription& scene, const std::string&
       stem_(fs::path(scene_file).stem().string()) {}
 
 std::string CompanionFiles::add(const std::string& bytes, const std::string& suffix) {
-  ++count_;
   for (;;) {
     const std::string name = fmt::format("{}-{}{}", stem_, ++last_number_, suffix);
     const std::string path = (fs::path(directory_) / name).string();
-    if (!fs::exists(path))
+    std::error_code error;
+    if (!fs::exists(path, error))
       write_bytes(path, bytes);
     else if (!has_bytes(path, bytes))
       continue;
-    return name;
+    return names_.emplace_back(name);
   }
 }
 

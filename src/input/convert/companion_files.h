@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "input/mesh_data.h"
 #include "input/scene_description.h"
@@ -22,8 +23,8 @@ class CompanionFiles {
   /// written. Throws IoError.
   std::string name_of(const std::string& old_name);
 
-  /// Number of files of the converted scene.
-  int count() const { return count_; }
+  /// The names of the converted scene's own files, in the order of their numbers.
+  const std::vector<std::string>& names() const { return names_; }
 
  private:
   /// Writes a file unless it is there already, and returns its name.
@@ -32,7 +33,8 @@ class CompanionFiles {
   SceneFiles& files_;
   std::string directory_;  ///< directory of the converted scene
   std::string stem_;       ///< beginning of all names
-  int count_ = 0, last_number_ = 0;
+  int last_number_ = 0;
+  std::vector<std::string> names_;
   std::map<std::string, std::string> written_;  ///< names of files in memory
 };
 

@@ -45,7 +45,7 @@ class PbrtWriter {
   PbrtWriter(const SceneDescription& scene, const std::string& path)
       : scene_(scene), path_(path), files_(scene, path), materials_(names_of_materials(scene)) {}
 
-  int file_count() const { return files_.count(); }
+  const std::vector<std::string>& file_names() const { return files_.names(); }
   void write() {
     text_ = "# Written by nephroid convert from " +
             std::filesystem::path(scene_.file).filename().string() + ".\n" + dialect_note(scene_);
@@ -252,10 +252,10 @@ void PbrtWriter::write_mesh(const ShapeDescription& shape, const MeshData& mesh)
 
 }  // namespace
 
-int write_pbrt(const SceneDescription& scene, const std::string& path) {
+std::vector<std::string> write_pbrt(const SceneDescription& scene, const std::string& path) {
   PbrtWriter writer(scene, path);
   writer.write();
-  return writer.file_count();
+  return writer.file_names();
 }
 
 }  // namespace nephroid

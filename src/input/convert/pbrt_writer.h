@@ -12,8 +12,8 @@ namespace nephroid {
 /// - materials without a name get the one by which light path expressions know them;
 /// - triangle meshes of more than a few faces and images in memory become files beside the scene;
 /// - names of other files are relative to the new scene.
-/// Comments say what of the scene is not pbrt-v4's. Returns the number of files beside the scene.
+/// Comments say what of the scene is not pbrt-v4's. Returns the names of the files beside it.
 /// Throws IoError if a file cannot be written.
-int write_pbrt(const SceneDescription& scene, const std::string& path);
+std::vector<std::string> write_pbrt(const SceneDescription& scene, const std::string& path);
 
 }  // namespace nephroid

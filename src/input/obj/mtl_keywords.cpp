@@ -46,7 +46,7 @@ constexpr Row kRows[] = {
     number("Ns", "0",
            "alpha = sqrt(2 / (Ns + 2)); with illum 3 to 9 reflections are sharp without Ns or "
            "with Ns 200 or more"),
-    number("Ni", "1.5", "specular_ior"),
+    number("Ni", "1.5", "specular_ior; 1 or less counts as 1.5 for highlights of what is no glass"),
     number("d", "1",
            "opacity. With illum 4, 6, 7 or 9 and Ni other than 1, the material is solid glass with "
            "transmission_weight 1 - d. With illum 6 or 7 and d 1 the weight is 1. --solid-glass "

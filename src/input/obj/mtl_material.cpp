@@ -223,7 +223,7 @@ std::optional<DirectiveDescription> Converter::area_light() const {
   if (const MtlMap* map = mtl_.map("map_Ke")) {
     list.add_string("filename", map->file);
     add_placement(*map, "", "clamp", &list);
-    list.add_color("factor", divided(ke, largest(ke)));
+    if (!is_grey(ke)) list.add_color("factor", divided(ke, largest(ke)));
     list.add_float("scale", largest(ke));
   } else {
     list.add_color("L", ke);

@@ -9,21 +9,19 @@ bool is_obj_blank(char c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/// True if the line gives names, of which some have a "#": newmtl Material #2, map_Kd wood #1.png.
-bool gives_names(std::string_view line) {
+/// True if the line names a material, as in usemtl Material #2.
+bool names_material(std::string_view line) {
   const std::string_view word = take_word(&line);
-  constexpr std::string_view kOthers[] = {"newmtl", "usemtl", "mtllib", "o",    "g",
-                                          "norm",   "bump",   "disp",   "refl", "decal"};
-  return word.starts_with("map_") || std::ranges::find(kOthers, word) != std::end(kOthers);
+  return word == "newmtl" || word == "usemtl";
 }
 
-/// The line without its comment. A "#" inside of a word begins none, nor does one before a word of
-/// a name.
+/// The line without its comment. A "#" inside of a word begins none, nor does one before the number
+/// of a material.
 std::string_view without_comment(std::string_view line) {
   for (size_t i = 0; i < line.size(); ++i) {
     if (line[i] != '#' || (i > 0 && !is_obj_blank(line[i - 1]))) continue;
-    const bool starts_word = i + 1 < line.size() && !is_obj_blank(line[i + 1]);
-    if (!(starts_word && gives_names(line))) return line.substr(0, i);
+    const bool is_number = i + 1 < line.size() && line[i + 1] >= '0' && line[i + 1] <= '9';
+    if (!(is_number && names_material(line))) return line.substr(0, i);
   }
   return line;
 }

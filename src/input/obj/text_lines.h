@@ -1,5 +1,5 @@
 // The lines and words of OBJ and MTL files: "\" joins a line with the next, "#" begins a comment.
-// Of keywords it must only know those that give names.
+// Of keywords it must only know those that name materials.
 #pragma once
 
 #include <string>

@@ -16,13 +16,15 @@ struct Tangents {
   Vec3f dpdu, dpdv;
 };
 
-/// A step from `u` over half of the finest detail along dp, as long as rounding leaves it.
-float bump_step(float u, const Vec3f& dp, const TextureDetail& detail) {
-  const float finest = std::max(detail.per_uv, detail.per_length * length(dp));
-  const float smallest = kMinSteps * std::numeric_limits<float>::epsilon() *
-                         std::max(std::abs(u), std::numeric_limits<float>::min());
-  const float step =
-      std::max(finest > 0 ? std::min(kBumpStep, 0.5f / finest) : kBumpStep, smallest);
+/// A step from `u` and `p` over half of the finest detail along dp, as long as rounding leaves it.
+float bump_step(float u, float detail_of_uv, const Vec3f& p, const Vec3f& dp, float detail_of_p) {
+  constexpr float kRounding = kMinSteps * std::numeric_limits<float>::epsilon();
+  const float along = length(dp);
+  const float finest = std::max(detail_of_uv, detail_of_p * along);
+  float step = finest > 0 ? std::min(kBumpStep, 0.5f / finest) : kBumpStep;
+  step = std::max({step, kRounding * std::abs(u), 1e-12f});
+  if (detail_of_p > 0 && along > 0)
+    step = std::max(step, kRounding * max_component(abs(p)) / along);
   return (u + step) - u;
 }
 
@@ -30,8 +32,8 @@ Tangents bumped(const SurfaceInteraction& s, const FloatTexture& displacement) {
   const TextureContext here(s);
   const float d = displacement.eval(here);
   const TextureDetail detail = displacement.detail();
-  const float du = bump_step(here.uv.x, s.shading_dpdu, detail);
-  const float dv = bump_step(here.uv.y, s.shading_dpdv, detail);
+  const float du = bump_step(here.uv.x, detail.per_uv.x, here.p, s.shading_dpdu, detail.per_length);
+  const float dv = bump_step(here.uv.y, detail.per_uv.y, here.p, s.shading_dpdv, detail.per_length);
   const auto tilted = [&](const Vec3f& dp, const Vec3f& dn, float step, const Vec2f& in_uv) {
     TextureContext moved = here;
     moved.p = here.p + dp * step;

@@ -195,9 +195,12 @@ void BilinearMesh::fill_texture_frame(uint32_t primitive, const Vec2f& uv,
   const uint32_t* v = corners(primitive);
   out.uv = blend(data_.uvs, v, uv.x, uv.y);
   const Vec2f by_u = blend_by_u(data_.uvs, v, uv.y), by_v = blend_by_v(data_.uvs, v, uv.x);
-  const auto inverse = [](float x) { return std::abs(x) < 1e-8f ? 0.0f : 1.0f / x; };
-  const float duds = inverse(by_u.x), dvds = inverse(by_v.x);
-  const float dudt = inverse(by_u.y), dvdt = inverse(by_v.y);
+  // A texture coordinate that hardly changes along an edge does not change.
+  const auto inverse = [](float x, float other) {
+    return std::abs(x) < std::max(1e-8f, 1e-4f * std::abs(other)) ? 0.0f : 1.0f / x;
+  };
+  const float duds = inverse(by_u.x, by_u.y), dvds = inverse(by_v.x, by_v.y);
+  const float dudt = inverse(by_u.y, by_u.x), dvdt = inverse(by_v.y, by_v.x);
   const Vec3f dpds = out.dpdu * duds + out.dpdv * dvds;
   Vec3f dpdt = out.dpdu * dudt + out.dpdv * dvdt;
   const Vec3f turned = cross(dpds, dpdt);

@@ -30,9 +30,10 @@ class ImagePlacement {
     return {m[0] * uv.x + m[1] * uv.y + m[2], 1.0f - (m[3] * uv.x + m[4] * uv.y + m[5])};
   }
   WrapModes wrap() const { return wrap_; }
-  /// The largest factor by which it stretches a texture coordinate.
-  float largest_scale() const {
-    return std::max(std::hypot(map_[0], map_[3]), std::hypot(map_[1], map_[4]));
+  /// Pixels of an image of that size per unit of u and of v.
+  Vec2f pixels_per_uv(float width, float height) const {
+    return {std::hypot(map_[0] * width, map_[3] * height),
+            std::hypot(map_[1] * width, map_[4] * height)};
   }
 
  private:

@@ -60,9 +60,8 @@ class ImageLookup {
     return {std::max(0.0f, c.r), std::max(0.0f, c.g), std::max(0.0f, c.b)};
   }
   TextureDetail detail() const {
-    return mapping_.detail(
-        Vec2f(static_cast<float>(image_->width()), static_cast<float>(image_->height())) *
-        placement_.largest_scale());
+    return mapping_.detail(placement_.pixels_per_uv(static_cast<float>(image_->width()),
+                                                    static_cast<float>(image_->height())));
   }
   const RgbColorSpace& color_space() const { return image_->color_space(); }
   ImageLookup times(float factor) const {

@@ -44,12 +44,14 @@ struct TextureContext {
   Rgb vertex_rgb() const { return {vertex_channel(0), vertex_channel(1), vertex_channel(2)}; }
 };
 
-/// How fine a texture is: its details per unit of uv, and per unit of world space where it depends
-/// on the place. 0 if it does not depend on that, or has no scale of its own.
+/// How fine a texture is: its details per unit of u and of v, and per unit of world space where it
+/// depends on the place. 0 if it does not depend on that, or has no scale of its own.
 struct TextureDetail {
-  float per_uv = 0, per_length = 0;
+  Vec2f per_uv{0, 0};
+  float per_length = 0;
   TextureDetail and_also(const TextureDetail& other) const {
-    return {std::max(per_uv, other.per_uv), std::max(per_length, other.per_length)};
+    return {{std::max(per_uv.x, other.per_uv.x), std::max(per_uv.y, other.per_uv.y)},
+            std::max(per_length, other.per_length)};
   }
 };
 

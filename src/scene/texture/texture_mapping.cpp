@@ -55,14 +55,15 @@ Vec2f TextureMapping2D::map(const TextureContext& context) const {
 
 TextureDetail TextureMapping2D::detail(const Vec2f& per_st) const {
   if (kind_ == Kind::kUv)
-    return {std::max(std::abs(scale_.x) * per_st.x, std::abs(scale_.y) * per_st.y), 0};
+    return {{std::abs(scale_.x) * per_st.x, std::abs(scale_.y) * per_st.y}, 0};
   if (kind_ != Kind::kPlanar) return {};
-  return {0, largest_scale(world_to_texture_) *
-                 std::max(length(axis_s_) * per_st.x, length(axis_t_) * per_st.y)};
+  return {{0, 0},
+          largest_scale(world_to_texture_) *
+              std::max(length(axis_s_) * per_st.x, length(axis_t_) * per_st.y)};
 }
 
 TextureDetail TextureMapping3D::detail(float per_length) const {
-  return {0, largest_scale(world_to_texture_) * per_length};
+  return {{0, 0}, largest_scale(world_to_texture_) * per_length};
 }
 
 TextureMapping3D::TextureMapping3D(const TextureDescription& description)

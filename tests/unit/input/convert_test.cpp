@@ -205,7 +205,7 @@ TEST(Convert, ReplacesNoOtherFile) {
   const TemporaryDirectory folder;
   folder.write("out-1.png", "somebody's picture");
   for (int again = 0; again < 2; ++again) {
-    write_pbrt(scene, folder.path("out.pbrt"));
+    EXPECT_EQ(write_pbrt(scene, folder.path("out.pbrt")), std::vector<std::string>{"out-2.png"});
     EXPECT_EQ(read_file_bytes(folder.path("out-1.png")), "somebody's picture");
     EXPECT_EQ(read_file_bytes(folder.path("out-2.png")), "\x89PNG and so on");
     EXPECT_NE(read_file_bytes(folder.path("out.pbrt")).find("\"out-2.png\""), std::string::npos);

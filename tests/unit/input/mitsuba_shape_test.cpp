@@ -101,13 +101,16 @@ TEST(MitsubaShape, ACubeHasMitsubasTextureCoordinates) {
   const Numbers uv = parameter(s.parameters, "uv").numbers;
   const auto expect_uv = [&](const Vec3d& normal, const Vec3d& p, double u, double v) {
     const Numbers indices = parameter(s.parameters, "indices").numbers;
+    int found = 0;
     for (size_t t = 0; t < 12; ++t)
       for (size_t k = 0; k < 3; ++k) {
         const auto i = static_cast<size_t>(indices[3 * t + k]);
         if (face_normal(s, t).dot(normal) < 0.9 || !(point_at(s, i) == p)) continue;
         EXPECT_EQ(uv[2 * i], u) << p.x << p.y << p.z;
         EXPECT_EQ(uv[2 * i + 1], 1 - v) << p.x << p.y << p.z;
+        ++found;
       }
+    EXPECT_GT(found, 0);
   };
   expect_uv({0, -1, 0}, {1, -1, -1}, 0, 1);
   expect_uv({0, -1, 0}, {-1, -1, 1}, 1, 0);

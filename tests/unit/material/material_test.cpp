@@ -230,7 +230,7 @@ TEST(Bump, NoiseDoesNotDependOnTheParametrisation) {
   const TextureLibrary textures(description, diagnostics);
   const auto made = make_materials(description, textures, {}, diagnostics);
   const auto normal = [&](float size) {
-    SurfaceInteraction point = flat_point();
+    SurfaceInteraction point = flat_point({1000.3f, 0.4f, 0.0f});
     point.uv = point.uv * (1 / size);
     point.dpdu = point.shading_dpdu = Vec3f(size, 0, 0);
     point.dpdv = point.shading_dpdv = Vec3f(0, size, 0);
