@@ -75,6 +75,19 @@ constexpr const char* kPbrtTail = R"(
   else finds.
 - `Option "disablepixeljitter"` does not concern routes of `lighttrace`, `mlt` and `pssmlt`, nor what
   `photons+light`, `bdpt` and `vcm` connect to the camera: that light is always spread by the pixel filter.
+
+## Known faults
+
+- Alpha of instances and of moving shapes is looked up in world space (pbrt-v4: in the space of the
+  object), which differs for noise and for mappings other than uv.
+- A light without any parameter takes the colour space of the whole scene, an area light sRGB
+  (pbrt-v4: that of the directive).
+- Lamps whose alpha comes from vertex colours are sampled as if it were 1.
+- A `displacement` image with `uvset` 1 makes no bumps.
+- `principled` can reflect more light than arrives, by up to 44 %, where `specular_ior` is below 1 or
+  `thin_film_ior` below the index of what is above.
+- On `subsurface` whose front is its inside, integrators disagree: `mixed` was 5 and 28 % brighter than
+  `path` on a disk and a sphere.
 )";
 
 const char* word_for(Support support) {
