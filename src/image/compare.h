@@ -41,11 +41,10 @@ inline constexpr double kDeviationLimit = 3.3;
 struct Comparison {
   bool is_same = false;  ///< R, G and B of both pictures are equal in every pixel
   double rmse = 0;
-  double relmse = 0;  ///< mean over pixels and channels of (x - r)^2 / (r^2 + 0.01)
-  double relmse_trim =
-      0;  ///< the same without the worst 0.1 % of pixels (at least one, if there are two or more)
-  MeanRatio mean;      ///< all pixels, no interval
-  MeanRatio dim_mean;  ///< pixels whose reference is below 10 in every channel
+  double relmse = 0;       ///< mean over pixels and channels of (x - r)^2 / (r^2 + 0.01)
+  double relmse_trim = 0;  ///< the same without the worst 0.1 % of pixels: one, or more of many
+  MeanRatio mean;          ///< all pixels, no interval
+  MeanRatio dim_mean;      ///< pixels whose reference is below 10 in every channel
   std::optional<Deviations>
       deviations;  ///< empty unless both pictures have stderr channels, in the same space
 };

@@ -31,7 +31,8 @@ Unknown keywords give a warning, and with `--strict` an error. A wrong number or
   MTL file that names them.
 - A missing MTL file is a warning, and so is a material that is not defined; the faces are grey. A missing image is an error, which
   names all missing images.
-- A # behind a blank begins a comment, but not before the number of a material (`usemtl Material #2`).
+- A # behind a blank begins a comment, but not before the number of a material, as in
+  `usemtl Material #2`.
 - Faces without normals are flat. Texture coordinates have (0, 0) at the lower left of an image.
 - Images of colours are sRGB if they store integers. Those of numbers (`map_d`, `map_Pr`, `map_Pm`, `bump`) are linear.
 )";

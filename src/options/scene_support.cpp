@@ -49,8 +49,8 @@ constexpr const char* kPbrtTail = R"(
 - `maxdepth` counts the scattering events of the whole path, camera and light side together, in every
   integrator, and is 100 where a scene does not say (pbrt-v4: 5).
 - Filtered image lookups (trilinear, EWA) are bilinear on the finest level.
-- Bump mapping takes differences over half a pixel of the image, or half of the finest octave of noise,
-  and over 0.0005 in uv at most (pbrt-v4: over half a pixel of the picture).
+- Bump mapping takes differences over half a pixel of the image, or half of the finest octave of
+  noise, and over 0.0005 in uv at most (pbrt-v4: over half a pixel of the picture).
 - `radius` of an sppm integrator is in world units and is ignored: the first radius comes from the
   pixel's footprint.
 - Mirroring a sphere, disk, cylinder or curve mirrors its outside, as it does for meshes and instances.
@@ -79,15 +79,15 @@ constexpr const char* kPbrtTail = R"(
 ## Known faults
 
 - Alpha of instances and of moving shapes is looked up in world space (pbrt-v4: in the space of the
-  object), which differs for noise and for mappings other than uv.
+  object). For noise and for mappings other than uv that is another picture.
 - A light without any parameter takes the colour space of the whole scene, an area light sRGB
   (pbrt-v4: that of the directive).
 - Lamps whose alpha comes from vertex colours are sampled as if it were 1.
 - A `displacement` image with `uvset` 1 makes no bumps.
-- `principled` can reflect more light than arrives, by up to 44 %, where `specular_ior` is below 1 or
-  `thin_film_ior` below the index of what is above.
-- On `subsurface` whose front is its inside, integrators disagree: `mixed` was 5 and 28 % brighter than
-  `path` on a disk and a sphere.
+- `principled` can reflect more light than arrives, by up to 44 %, where `specular_ior` is below 1
+  or `thin_film_ior` is below the index of what lies over the film.
+- Integrators disagree about `subsurface` on surfaces that are inside out: `mixed` was 5 % brighter
+  than `path` on a disk and 28 % on a sphere.
 )";
 
 const char* word_for(Support support) {

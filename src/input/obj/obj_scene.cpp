@@ -87,7 +87,7 @@ const ObjScene::OfShapes& ObjScene::material_of(const ObjPart& part) {
   if (known != library_.end())
     return used_.emplace(part.material, convert(known->second)).first->second;
   if (!part.material.empty()) {
-    // Of a wrong library nothing need be suggested, and the search takes long.
+    // If the library is the wrong one, suggestions do not help, and each takes a search of it.
     std::vector<std::string> names;
     if (++undefined_ <= kMaxSuggestions)
       for (const auto& entry : library_) names.push_back(entry.first);

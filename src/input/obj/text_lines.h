@@ -1,5 +1,5 @@
 // The lines and words of OBJ and MTL files: "\" joins a line with the next, "#" begins a comment.
-// Of keywords it must only know those that name materials.
+// It must not know keywords, except those that name a material.
 #pragma once
 
 #include <string>

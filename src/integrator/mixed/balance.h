@@ -21,10 +21,10 @@ struct TileStatistics {
   SampleVariance::ByTile choice;  ///< chains found by camera paths, at no extra cost
 };
 
-/// The largest means per pixel and pass that are allocated.
+/// Upper limits of the mean number per pixel and pass.
 struct MeanLimits {
-  double paths = SampleMap::kMaxMean;  ///< of camera paths, 1 or more
-  double walks = kInfinity;            ///< of camera paths and walks for chains, 2 or more
+  double paths = SampleMap::kMaxMean;  ///< camera paths; at least 1
+  double walks = kInfinity;            ///< camera paths and walks for chains; at least 2
 };
 /// The limits in a film, or a crop of one, with so many pixels. They are lower in a large one,
 /// whose first whole picture would come late (ADR 29).

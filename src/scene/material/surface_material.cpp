@@ -8,9 +8,10 @@
 namespace nephroid {
 namespace {
 
-/// The largest finite difference step in uv, pbrt-v4's where the size of a pixel is unknown, and
-/// the smallest one over the rounding of uv.
-constexpr float kBumpStep = 0.0005f, kMinSteps = 4;
+/// The largest finite difference step in uv: pbrt-v4's where it does not know the size of a pixel.
+constexpr float kBumpStep = 0.0005f;
+/// The smallest step over the rounding error of u or p.
+constexpr float kMinSteps = 4;
 
 struct Tangents {
   Vec3f dpdu, dpdv;
