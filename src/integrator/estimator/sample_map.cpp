@@ -48,7 +48,7 @@ SampleVariance::ByTile SampleVariance::by_tile(const SampleVariance* others) con
   ByTile out;
   out.variance.assign(tiles.counts().size(), 0);
   out.cost = out.variance;
-  out.light = out.brightness = out.photons = out.variance;
+  out.light = out.brightness = out.photons = out.typical = out.variance;
   std::vector<double> pixels(out.variance);
   double all_light = 0, all_pixels = 0;
   size_t i = 0;
@@ -59,7 +59,9 @@ SampleVariance::ByTile SampleVariance::by_tile(const SampleVariance* others) con
       const size_t tile = tiles.tile_of(x, y);
       const double mean = s.light / s.samples;
       out.cost[tile] += s.rays / s.samples;
-      out.variance[tile] += std::max(0.0, (s.square - mean * s.light) / (s.samples - 1));
+      const double variance = std::max(0.0, (s.square - mean * s.light) / (s.samples - 1));
+      out.variance[tile] += variance;
+      out.typical[tile] += std::sqrt(variance);
       out.photons[tile] += s.photons / s.samples;
       out.light[tile] += std::abs(mean);
       all_light += std::abs(mean) + (others ? other.light[tile] : 0);
@@ -75,6 +77,7 @@ SampleVariance::ByTile SampleVariance::by_tile(const SampleVariance* others) con
     const double brightness = out.light[t] + (others ? other.light[t] : 0) + floor;
     out.brightness[t] = brightness;
     out.variance[t] = brightness > 0 ? out.variance[t] / (pixels[t] * brightness) : 0;
+    out.typical[t] = brightness > 0 ? sqr(out.typical[t] / pixels[t]) / brightness : 0;
     out.photons[t] = brightness > 0 ? out.photons[t] / (pixels[t] * brightness) : 0;
     out.cost[t] /= pixels[t];
   }

@@ -84,7 +84,10 @@ class SampleVariance {
   void add(const SampleVariance& other);
   /// Means per tile; zero where no pixel has two samples.
   struct ByTile {
-    std::vector<double> variance;    ///< [tile] variance of a sample over `brightness`, [A1]
+    std::vector<double> variance;  ///< [tile] variance of a sample over `brightness`, [A1]
+    /// [tile] square of the mean standard deviation of its pixels over `brightness`: a few pixels
+    /// that are noisier than the others count for less.
+    std::vector<double> typical;
     std::vector<double> photons;     ///< [tile] variance due to photons over `brightness`
     std::vector<double> brightness;  ///< [tile] the divisor of `variance`
     std::vector<double> light;       ///< [tile] mean magnitude of the light

@@ -25,11 +25,11 @@ std::vector<double> smoothed(const std::vector<double>& values, int width) {
   return out;
 }
 
-/// Smoothed variance and cost of a sample by tile; empty if there are no samples.
+/// Smoothed typical variance and cost of a sample by tile; empty if there are no samples.
 struct OfTiles {
   std::vector<double> variance, cost;
   OfTiles(const SampleVariance::ByTile& tiles, int width)
-      : variance(smoothed(tiles.variance, width)), cost(smoothed(tiles.cost, width)) {}
+      : variance(smoothed(tiles.typical, width)), cost(smoothed(tiles.cost, width)) {}
   double samples_wanted(size_t tile) const {
     return cost[tile] > 0 ? std::sqrt(variance[tile] / cost[tile]) : 0;
   }
@@ -111,6 +111,29 @@ SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
   }
 }
 
+PassNoise::PassNoise(const TileStatistics& found, const SampleAllocation& samples,
+                     double measured_light_paths)
+    : camera_paths(samples.paths.mean()) {
+  // A measured pass sees no noise of camera paths where photons give all light.
+  constexpr double kLeastShareOfCamera = 0.05;
+  const bool separates = !found.chains.cost.empty();
+  for (size_t i = 0; i < found.paths.cost.size(); ++i) {
+    if (!(found.paths.cost[i] > 0)) continue;
+    const double paths = samples.paths.counts()[i], walks = samples.chains.counts()[i];
+    double camera = found.paths.typical[i] / paths;
+    if (separates && walks > 0) {
+      camera += found.chains.typical[i] / walks;
+      walk_rays += walks * found.chains.cost[i];
+    } else if (separates) {
+      camera += found.choice.typical[i] / paths;
+    }
+    const double photons = found.paths.photons[i];
+    tiles.push_back(
+        {std::max(camera, kLeastShareOfCamera * photons / paths), photons * measured_light_paths});
+  }
+  if (!tiles.empty()) walk_rays /= static_cast<double>(tiles.size());
+}
+
 double Trial::min_variance_of_unseen(const Trial& other) const {
   const double unseen = other.light - light - 2 * other.error;
   return unseen > 0 ? samples * unseen * unseen / (1.1 * other.light) : 0;
@@ -119,18 +142,13 @@ double Trial::min_variance_of_unseen(const Trial& other) const {
 Balance::Balance(const Trial& trial)
     : variance_of_camera(std::max(trial.variance_of_camera, 0.05 * trial.variance_of_light)),
       cost_of_camera(trial.cost_of_camera),
+      pixels(trial.pixels),
       photons_of_path(trial.photons) {
   // b of V(N) = v + b/N [A3].
   variance_of_light = trial.variance_of_light * trial.light_paths;
-  if (trial.light_paths > 0) cost_of_light = trial.cost_of_light / trial.light_paths;
-}
-
-bool Balance::is_sound() const {
-  const auto is_amount = [](double x) { return x >= 0 && std::isfinite(x); };
-  return is_amount(max_photons) && is_amount(min_light_paths) && scale > 0 && is_amount(scale) &&
-         is_amount(variance_of_camera) && is_amount(variance_of_light) &&
-         is_amount(cost_of_camera) && is_amount(cost_of_light) && is_amount(photons_of_path) &&
-         is_amount(light_paths_of_camera_path());
+  if (!(trial.light_paths > 0)) return;
+  cost_of_light = trial.cost_of_light / trial.light_paths;
+  cost_of_merging = trial.cost_of_merging / trial.light_paths;
 }
 
 double Balance::light_paths_of_camera_path() const {
@@ -147,6 +165,27 @@ int64_t Balance::light_paths(double camera_paths) const {
   const double most = max_light_paths();
   return static_cast<int64_t>(std::clamp(camera_paths * light_paths_of_camera_path(),
                                          std::clamp(min_light_paths, kMinLightPaths, most), most));
+}
+
+int64_t Balance::light_paths(const PassNoise& pass) const {
+  const double most = max_light_paths();
+  const double rays_of_camera = pass.camera_paths * cost_of_camera / pixels + pass.walk_rays;
+  const double rays_of_light =
+      (cost_of_light + (pass.camera_paths - 1) * cost_of_merging) / (pixels * scale);
+  constexpr double kStep = 1.0625;
+  // A measured pass has few light paths. What they do not see, the trial may have seen.
+  auto best = static_cast<double>(light_paths(pass.camera_paths));
+  double least = kInfinity;
+  for (double n = best; n <= most; n *= kStep) {
+    double deviation = 0;
+    for (const PassNoise::Tile& t : pass.tiles) deviation += std::sqrt(t.camera + t.photons / n);
+    const double expense = sqr(deviation) * (rays_of_camera + rays_of_light * n);
+    if (expense < least) {
+      least = expense;
+      best = n;
+    }
+  }
+  return static_cast<int64_t>(best);
 }
 
 void Balance::let_photons_lower_variance_of_camera(const Trial& trial) {

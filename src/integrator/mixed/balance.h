@@ -36,6 +36,21 @@ MeanLimits limits_of_film(int64_t pixels);
 SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
                                   const TileStatistics& tiles, const MeanLimits& limits = {});
 
+/// The noise and the work of a pass by tile, to choose its number of light paths.
+struct PassNoise {
+  struct Tile {
+    double camera;   ///< variance of its camera paths and walks
+    double photons;  ///< variance due to photons, times the number of light paths
+  };
+  std::vector<Tile> tiles;
+  double camera_paths = 0;  ///< mean number of camera paths per pixel
+  double walk_rays = 0;     ///< mean rays of walks for specular chains per pixel
+  /// For passes of these samples. `measured_light_paths` is the number in the film that
+  /// corresponds to the pass in which the tiles were measured.
+  PassNoise(const TileStatistics& tiles, const SampleAllocation& samples,
+            double measured_light_paths);
+};
+
 /// Results of trial passes over a lattice of pixels, as if the lattice were the film.
 struct Trial {
   double variance_of_camera = 0;  ///< variance of one camera path, given the photons
@@ -48,6 +63,8 @@ struct Trial {
   double samples = 0;             ///< camera paths in that mean
   double records = 0;             ///< mean number of records per camera path
   double photons = 0;             ///< mean number of photons per light path
+  double cost_of_merging = 0;     ///< the part of cost_of_light that grows with camera paths
+  double pixels = 0;              ///< pixels of the lattice
   /// [A4] Lower bound of the variance of light that `other` has seen and this trial has not.
   double min_variance_of_unseen(const Trial& other) const;
 };
@@ -65,17 +82,14 @@ struct Balance {
   double min_light_paths = 0;    ///< lower bound, unless they leave more than max_photons
   double scale = 1;              ///< pixels of the film over those of the lattice
   double variance_of_camera = 0, variance_of_light = 0, cost_of_camera = 0, cost_of_light = 0;
+  double cost_of_merging = 0;  ///< the part of cost_of_light that grows with camera paths
+  double pixels = 0;           ///< pixels of the lattice
   double photons_of_path = 0;  ///< mean number of photons per light path
   explicit Balance(const Trial& trial);
-  /// A value to be read into.
-  Balance() = default;
-  static void members(auto& self, auto& archive) {
-    archive(self.max_photons, self.min_light_paths, self.scale, self.variance_of_camera,
-            self.variance_of_light, self.cost_of_camera, self.cost_of_light, self.photons_of_path);
-  }
-  bool is_sound() const;
   /// Best number of light paths for `camera_paths` per pixel, from min_light_paths to max_photons.
   int64_t light_paths(double camera_paths) const;
+  /// [A8] Best number for passes whose noise is known by tile, at least that of [A3].
+  int64_t light_paths(const PassNoise& pass) const;
   /// [A7] For photons of all light: they lower v, too, so that more of them are best. Raises
   /// min_light_paths to the best number for one camera path per pixel.
   void let_photons_lower_variance_of_camera(const Trial& trial);

@@ -1,8 +1,6 @@
 // The learned value of `path+photons`. It must not know how it is learned.
 #pragma once
 
-#include <optional>
-
 #include "integrator/bidirectional/pair_pass.h"
 #include "integrator/learning/photon_guiding.h"
 #include "integrator/mixed/balance.h"
@@ -13,20 +11,16 @@ namespace nephroid {
 /// of camera paths.
 struct MixPlan {
   GuidedPhotons photons;
-  PairTechniques techniques;       ///< techniques; their light_paths counts if there is no balance
-  std::optional<Balance> balance;  ///< gives the number of light paths
+  PairTechniques techniques;  ///< techniques with the number of light paths
   SampleAllocation samples;
   RadianceGuide directions;
   bool is_even = false;                        ///< all pixels have equally many camera paths
   uint64_t rays = 0;                           ///< rays of learning without those of `photons`
   uint64_t photon_bytes = 0, pixel_bytes = 0;  ///< memory of learning
 
-  int64_t light_paths() const {
-    return balance ? balance->light_paths(samples.paths.mean()) : techniques.light_paths;
-  }
   static void members(auto& self, auto& archive) {
-    archive(self.photons, self.techniques, self.balance, self.samples, self.directions,
-            self.is_even, self.rays, self.photon_bytes, self.pixel_bytes);
+    archive(self.photons, self.techniques, self.samples, self.directions, self.is_even, self.rays,
+            self.photon_bytes, self.pixel_bytes);
   }
 };
 

@@ -39,16 +39,10 @@ int spacing_of(const FilmFormat& film) {
   return PixelSlices(film.bounds()).spacing(1);
 }
 
-SampleAllocation allocation(const PairFindings::Variance& v, const MixPlan& plan,
-                            const FilmFormat& film) {
-  MeanLimits limits = limits_of_film(film.bounds().area());
-  if (plan.balance) limits.paths = std::clamp(plan.balance->max_camera_paths(), 1.0, limits.paths);
-  if (!plan.techniques.separates_chains)
-    return allocate_samples(film.bounds(), spacing_of(film), {v.paths.by_tile(), {}, {}}, limits);
-  return allocate_samples(film.bounds(), spacing_of(film),
-                          {v.paths.by_tile(&v.chains.walks), v.chains.walks.by_tile(&v.paths),
-                           v.chains.choice.by_tile(&v.paths)},
-                          limits);
+TileStatistics tile_statistics(const PairFindings::Variance& v, bool separates_chains) {
+  if (!separates_chains) return {v.paths.by_tile(), {}, {}};
+  return {v.paths.by_tile(&v.chains.walks), v.chains.walks.by_tile(&v.paths),
+          v.chains.choice.by_tile(&v.paths)};
 }
 
 /// True if paths of the group may have events in a medium of the scene.
@@ -178,15 +172,16 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
   const Candidate& best = choice.candidate;
   PairTechniques& chosen = plan.techniques;
   chosen = best.techniques;
-  if (chosen.light_paths > 0) plan.balance = best.balance;
+  // Without photons there is nothing to balance, with the user's number nothing to choose.
+  const bool balances = chosen.light_paths > 0 && !(options_.photons_per_pass > 0);
+  if (options_.photons_per_pass > 0)
+    chosen.light_paths = options_.photons_per_pass;
+  else if (balances)
+    chosen.light_paths = best.balance.light_paths(std::max(asked, 1));
   // With photons of all light, a second camera path gains little or nothing (ADR 31).
   plan.is_even = asked > 0 || chosen.merges_all_light();
   const double records_per_path =
       std::clamp(1.1 * best.trial.records, 0.25, double{PassRecords::kMaxPerPath});
-  if (options_.photons_per_pass > 0) {
-    chosen.light_paths = options_.photons_per_pass;
-    plan.balance.reset();
-  }
   EstimatorStatistics costs = trials.costs();
   SampleMap measured(film.bounds(), kMeasuredSamples, spacing_of(film));
   plan.samples = {SampleMap(film.bounds(), static_cast<uint16_t>(std::max(asked, 1))),
@@ -199,13 +194,21 @@ std::shared_ptr<const Learned> PathAndPhotons::learn(const Scene& scene, const F
     const PassKey key{hash_combine(seed, kMeasureStream), 0};
     PairPass pass = pass_of(key, scene, film, plan, control);
     // As many light paths per pixel of the lattice as the film has per pixel.
-    pass.techniques.light_paths = static_cast<int64_t>(
-        std::ceil(static_cast<double>(pass.techniques.light_paths) * static_cast<double>(pixels) /
-                  static_cast<double>(film.bounds().area())));
+    const double scale = static_cast<double>(film.bounds().area()) / static_cast<double>(pixels);
+    int64_t& light_paths = pass.techniques.light_paths;
+    light_paths = static_cast<int64_t>(std::ceil(static_cast<double>(light_paths) / scale));
     pass.radius_pixels *= static_cast<float>(spacing_of(film));
     pass.corrects_edges = false;
     PairFindings found = measure(pass, film, {measured, measured}, learning, costs);
-    if (found.variance) plan.samples = allocation(*found.variance, plan, film);
+    if (found.variance) {
+      const TileStatistics tiles = tile_statistics(*found.variance, chosen.separates_chains);
+      MeanLimits limits = limits_of_film(film.bounds().area());
+      if (balances) limits.paths = std::clamp(best.balance.max_camera_paths(), 1.0, limits.paths);
+      plan.samples = allocate_samples(film.bounds(), spacing_of(film), tiles, limits);
+      if (balances)
+        chosen.light_paths = best.balance.light_paths(
+            PassNoise(tiles, plan.samples, scale * static_cast<double>(light_paths)));
+    }
     const size_t record_bytes = found.records.capacity() * sizeof(RadianceRecord);
     plan.directions = RadianceGuide(std::move(found.records));
     // Sorting the records takes half their memory in addition.
@@ -221,8 +224,8 @@ float PathAndPhotons::radius_of(const MixPlan& plan, const FilmFormat& film, uin
   const float radius = first_radius_of_film(plan.techniques, options_, film.picture_pixels()) *
                        shrinkage(options_, pass);
   // A number that the user sets is the same in a crop, which must not change the radius.
-  if (!plan.techniques.merges_all_light() || !plan.balance) return radius;
-  return radius * shrinkage_by_photons(options_, static_cast<double>(plan.light_paths()) /
+  if (!plan.techniques.merges_all_light() || options_.photons_per_pass > 0) return radius;
+  return radius * shrinkage_by_photons(options_, static_cast<double>(plan.techniques.light_paths) /
                                                      static_cast<double>(film.bounds().area()));
 }
 
@@ -238,7 +241,6 @@ PairPass PathAndPhotons::pass_of(const PassKey& key, const Scene& scene, const F
                 .emission = plan.photons.guide.starts,
                 .light_paths_vary = true,
                 .control = control};
-  pass.techniques.light_paths = plan.light_paths();
   return pass;
 }
 
@@ -247,8 +249,9 @@ std::shared_ptr<const Learned> PathAndPhotons::read_learned(ByteReader& from,
   MixPlan plan;
   from(plan);
   const int64_t photons = options_.photons_per_pass, light_paths = plan.techniques.light_paths;
-  expect_sound(photons > 0 ? light_paths == photons && !plan.balance
-                           : static_cast<double>(light_paths) <= kMaxLightPaths);
+  expect_sound(photons > 0
+                   ? light_paths == photons
+                   : light_paths >= 0 && static_cast<double>(light_paths) <= kMaxLightPaths);
   const int asked = options_.camera_samples_per_pass;
   const auto fits = [&](const SampleMap& map, int min, int max) {
     return map.is_sound(film.bounds(), spacing_of(film), min, std::max(max, asked));

@@ -172,7 +172,9 @@ Trial Trials::trial_of(const TrialNoise& noise, const EstimatorStatistics& count
           .records = records / samples,
           .photons = counts.photon_paths > 0 ? static_cast<double>(counts.photons_stored) /
                                                    static_cast<double>(counts.photon_paths)
-                                             : 0};
+                                             : 0,
+          .cost_of_merging = merges / paths_per_pixel,
+          .pixels = pixels_};
 }
 
 }  // namespace nephroid
