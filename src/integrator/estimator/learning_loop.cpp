@@ -10,7 +10,7 @@ namespace {
 // A damaged file must not claim all memory. A larger value is not saved but learned again.
 constexpr size_t kMaxWords = size_t{64} << 18;
 // Version of the bytes that estimators write. Increase it when the members of any value change.
-constexpr uint32_t kLayout = 1;
+constexpr uint32_t kLayout = 2;
 // All that is saved of an estimator that has nothing to learn. No words: it has not learned yet, or
 // its value is too large.
 constexpr uint32_t kLearnsNothing = 0;

@@ -85,8 +85,8 @@ class SampleVariance {
   /// Means per tile; zero where no pixel has two samples.
   struct ByTile {
     std::vector<double> variance;  ///< [tile] variance of a sample over `brightness`, [A1]
-    /// [tile] square of the mean standard deviation of its pixels over `brightness`: a few pixels
-    /// that are noisier than the others count for less.
+    /// [tile] σ² of [A1], the square of the mean standard deviation of its pixels over
+    /// `brightness`: a few pixels that are noisier than the others count for less.
     std::vector<double> typical;
     std::vector<double> photons;     ///< [tile] variance due to photons over `brightness`
     std::vector<double> brightness;  ///< [tile] the divisor of `variance`

@@ -27,15 +27,15 @@ std::vector<double> smoothed(const std::vector<double>& values, int width) {
 
 /// Smoothed typical variance and cost of a sample by tile; empty if there are no samples.
 struct OfTiles {
-  std::vector<double> variance, cost;
+  std::vector<double> typical, cost;
   OfTiles(const SampleVariance::ByTile& tiles, int width)
-      : variance(smoothed(tiles.typical, width)), cost(smoothed(tiles.cost, width)) {}
+      : typical(smoothed(tiles.typical, width)), cost(smoothed(tiles.cost, width)) {}
   double samples_wanted(size_t tile) const {
-    return cost[tile] > 0 ? std::sqrt(variance[tile] / cost[tile]) : 0;
+    return cost[tile] > 0 ? std::sqrt(typical[tile] / cost[tile]) : 0;
   }
 };
 
-/// sqrt(variance / cost) of the tiles that are not black compared with the largest value.
+/// sqrt(typical variance / cost) of the tiles that are not black compared with the largest value.
 std::vector<double> lit_square_roots(const OfTiles& tiles) {
   std::vector<double> roots;
   for (size_t i = 0; i < tiles.cost.size(); ++i) roots.push_back(tiles.samples_wanted(i));
@@ -90,16 +90,16 @@ SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
   // averaged over passes alone, and many paths per pass are few passes.
   for (double unit = lit[lit.size() / 20];; unit *= 1.1) {
     for (size_t i = 0; i < paths.cost.size(); ++i) {
-      const double v = paths.variance[i], c = paths.cost[i];
+      const double v = paths.typical[i], c = paths.cost[i];
       const Allocation alone(v, c, unit, SampleMap::kMax);
       shares.paths.counts()[i] = alone.samples;
       if (chains.cost.empty()) continue;
-      const Allocation all(v + choice.variance[i], c, unit, SampleMap::kMax);
-      const Allocation of_chains(chains.variance[i], chains.cost[i], unit,
+      const Allocation all(v + choice.typical[i], c, unit, SampleMap::kMax);
+      const Allocation of_chains(chains.typical[i], chains.cost[i], unit,
                                  SampleMap::kMaxChainWalks);
       // Behind mirrors or glass of the tile there may still be a bright light that no walk has
       // seen.
-      const bool unseen = chains.variance[i] <= 0 && chains.cost[i] > 1;
+      const bool unseen = chains.typical[i] <= 0 && chains.cost[i] > 1;
       const bool apart = unseen || alone.inverse_efficiency + of_chains.inverse_efficiency <
                                        all.inverse_efficiency;
       if (!apart) shares.paths.counts()[i] = all.samples;
@@ -115,7 +115,7 @@ PassNoise::PassNoise(const TileStatistics& found, const SampleAllocation& sample
                      double measured_light_paths)
     : camera_paths(samples.paths.mean()) {
   // A measured pass sees no noise of camera paths where photons give all light.
-  constexpr double kLeastShareOfCamera = 0.05;
+  constexpr double kMinShareOfCamera = 0.05;
   const bool separates = !found.chains.cost.empty();
   for (size_t i = 0; i < found.paths.cost.size(); ++i) {
     if (!(found.paths.cost[i] > 0)) continue;
@@ -129,7 +129,7 @@ PassNoise::PassNoise(const TileStatistics& found, const SampleAllocation& sample
     }
     const double photons = found.paths.photons[i];
     tiles.push_back(
-        {std::max(camera, kLeastShareOfCamera * photons / paths), photons * measured_light_paths});
+        {std::max(camera, kMinShareOfCamera * photons / paths), photons * measured_light_paths});
   }
   if (!tiles.empty()) walk_rays /= static_cast<double>(tiles.size());
 }
@@ -175,13 +175,13 @@ int64_t Balance::light_paths(const PassNoise& pass) const {
   constexpr double kStep = 1.0625;
   // A measured pass has few light paths. What they do not see, the trial may have seen.
   auto best = static_cast<double>(light_paths(pass.camera_paths));
-  double least = kInfinity;
+  double lowest = kInfinity;
   for (double n = best; n <= most; n *= kStep) {
     double deviation = 0;
     for (const PassNoise::Tile& t : pass.tiles) deviation += std::sqrt(t.camera + t.photons / n);
-    const double expense = sqr(deviation) * (rays_of_camera + rays_of_light * n);
-    if (expense < least) {
-      least = expense;
+    const double inverse_efficiency = sqr(deviation) * (rays_of_camera + rays_of_light * n);
+    if (inverse_efficiency < lowest) {
+      lowest = inverse_efficiency;
       best = n;
     }
   }

@@ -1,6 +1,7 @@
 // Allocation of a pass's work: camera paths over the picture, camera paths against light paths, and
-// the efficiency of techniques. It is decided once, from variance and ray counts of trial passes,
-// never from a clock (docs/estimators.md, section 21). It must not know how passes are rendered.
+// the efficiency of techniques. It is decided once, from variance and ray counts of trial passes
+// and of a measured pass, never from a clock (docs/estimators.md, section 21). It must not know how
+// passes are rendered.
 #pragma once
 
 #include "integrator/estimator/sample_map.h"
@@ -31,20 +32,20 @@ struct MeanLimits {
 MeanLimits limits_of_film(int64_t pixels);
 
 /// [A2], [S2] Allocates samples for the fastest fall of the error: walks of either kind in
-/// proportion to sqrt(variance / cost), and each tile in the cheaper of both ways. `spacing` is the
-/// distance of the measured pixels, in pixels of the film.
+/// proportion to sqrt(typical variance / cost), and each tile in the cheaper of both ways.
+/// `spacing` is the distance of the measured pixels, in pixels of the film.
 SampleAllocation allocate_samples(const PixelBounds& bounds, int spacing,
                                   const TileStatistics& tiles, const MeanLimits& limits = {});
 
 /// The noise and the work of a pass by tile, to choose its number of light paths.
 struct PassNoise {
   struct Tile {
-    double camera;   ///< variance of its camera paths and walks
-    double photons;  ///< variance due to photons, times the number of light paths
+    double camera;   ///< typical variance of its camera paths and walks
+    double photons;  ///< upper bound of the variance due to photons, times light paths
   };
   std::vector<Tile> tiles;
   double camera_paths = 0;  ///< mean number of camera paths per pixel
-  double walk_rays = 0;     ///< mean rays of walks for specular chains per pixel
+  double walk_rays = 0;     ///< mean rays of walks for specular chains per pixel of `tiles`
   /// For passes of these samples. `measured_light_paths` is the number in the film that
   /// corresponds to the pass in which the tiles were measured.
   PassNoise(const TileStatistics& tiles, const SampleAllocation& samples,

@@ -249,9 +249,8 @@ std::shared_ptr<const Learned> PathAndPhotons::read_learned(ByteReader& from,
   MixPlan plan;
   from(plan);
   const int64_t photons = options_.photons_per_pass, light_paths = plan.techniques.light_paths;
-  expect_sound(photons > 0
-                   ? light_paths == photons
-                   : light_paths >= 0 && static_cast<double>(light_paths) <= kMaxLightPaths);
+  expect_sound(photons > 0 ? light_paths == photons
+                           : static_cast<double>(light_paths) <= kMaxLightPaths);
   const int asked = options_.camera_samples_per_pass;
   const auto fits = [&](const SampleMap& map, int min, int max) {
     return map.is_sound(film.bounds(), spacing_of(film), min, std::max(max, asked));

@@ -20,8 +20,8 @@ class PathAndPhotons final : public Estimator {
   static const EstimatorDescriptor kDescriptor;
   const EstimatorDescriptor& descriptor() const override { return kDescriptor; }
   bool records_features() const override { return true; }
-  /// Learns the guide of photon emission. Trial passes then choose the techniques and the number of
-  /// light paths; a measured pass gives camera paths per tile and their guide. All passes cover a
+  /// Learns the guide of photon emission. Trial passes then choose the techniques. A measured pass
+  /// gives camera paths per tile, their guide, and the number of light paths. All passes cover a
   /// lattice of pixels whose size does not grow with the film.
   std::shared_ptr<const Learned> learn(const Scene& scene, const FilmFormat& film, uint64_t seed,
                                        PassControl& control) const override;

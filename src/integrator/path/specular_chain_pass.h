@@ -20,8 +20,8 @@ namespace nephroid {
 struct ChainVariance {
   explicit ChainVariance(const PixelBounds& b, int spacing = 1)
       : walks(b, spacing), choice(b, spacing) {}
-  SampleVariance walks;   ///< variance of the walks of a SpecularChainPass: v_g of [S2]
-  SampleVariance choice;  ///< predicted variance of camera paths that choose one way: v_p of [S2]
+  SampleVariance walks;   ///< variance of the walks of a SpecularChainPass: σ_g² of [S2]
+  SampleVariance choice;  ///< predicted variance of camera paths that choose one way: σ_p² there
 };
 
 struct SpecularChainPass {
